@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/build/band_leaves.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vdbounce {
+
+/// The connected regions into which a mesh divides space, found on the voxels of its band and the empty leaves between.
+///
+/// Two neighbouring voxels are joined where their distances to the mesh add up to more than the way between them:
+/// then no triangle can lie in between, so all of a region has one sign. What is not joined is not necessarily
+/// apart: voxels close to the mesh often are regions of their own.
+class SpaceRegions {
+public:
+    /// `leaves` in lexicographic order, as measureBandLeaves returns them. Memory: 2 KB a leaf, 4 bytes for each leaf of the
+    /// box around all.
+    SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize);
+
+    struct Region {
+        std::size_t deepestLeaf = 0; ///< where the region's voxel farthest from the mesh is
+        int deepestVoxel = 0;
+        float depth = -1.0f;         ///< its distance, world units
+        bool outermost = false;      ///< holds the space far away from the mesh
+    };
+    const std::vector<Region>& regions() const { return regions_; }
+
+    /// The region of a voxel, an index into regions().
+    std::uint32_t regionOf(std::size_t leaf, int voxel) const { return label_[leaf * BandLeaf::kVoxels + std::size_t(voxel)]; }
+
+private:
+    std::vector<Region> regions_;
+    std::vector<std::uint32_t> label_;
+};
+
+} // namespace vdbounce

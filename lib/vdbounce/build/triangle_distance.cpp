@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/build/triangle_distance.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace vdbounce {
+namespace {
+
+// start + t (end - start) for the t in [0, 1] closest to p.
+Vec3d closestOnSegment(const Vec3d& p, const Vec3d& start, const Vec3d& end)
+{
+    const Vec3d along = end - start;
+    const double length2 = along.squaredNorm();
+    if (length2 <= 0.0) return start;
+    return start + std::min(1.0, std::max(0.0, (p - start).dot(along) / length2)) * along;
+}
+
+Vec3d closestOnEdges(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    const Vec3d candidates[3] = {closestOnSegment(p, a, b), closestOnSegment(p, b, c), closestOnSegment(p, c, a)};
+    const Vec3d* best = &candidates[0];
+    for (const Vec3d& candidate : candidates) {
+        if ((candidate - p).squaredNorm() < (*best - p).squaredNorm()) best = &candidate;
+    }
+    return *best;
+}
+
+} // namespace
+
+Vec3d closestPointOnTriangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    const Vec3d ab = b - a;
+    const Vec3d ac = c - a;
+    const Vec3d ap = p - a;
+    const double d1 = ab.dot(ap);
+    const double d2 = ac.dot(ap);
+    if (d1 <= 0.0 && d2 <= 0.0) return a;
+
+    const Vec3d bp = p - b;
+    const double d3 = ab.dot(bp);
+    const double d4 = ac.dot(bp);
+    if (d3 >= 0.0 && d4 <= d3) return b;
+
+    const Vec3d cp = p - c;
+    const double d5 = ab.dot(cp);
+    const double d6 = ac.dot(cp);
+    if (d6 >= 0.0 && d5 <= d6) return c;
+
+    const double va = d3 * d6 - d5 * d4;
+    const double vb = d5 * d2 - d1 * d6;
+    const double vc = d1 * d4 - d3 * d2;
+    const double area = va + vb + vc;
+    // A sliver has no inside to project to; whatever its edges say is then exact.
+    if (!(area > 0.0) || va <= 0.0 || vb <= 0.0 || vc <= 0.0) return closestOnEdges(p, a, b, c);
+    return a + ab * (vb / area) + ac * (vc / area);
+}
+
+double windingContribution(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    const Vec3d u = a - p;
+    const Vec3d v = b - p;
+    const Vec3d w = c - p;
+    const double lu = u.norm();
+    const double lv = v.norm();
+    const double lw = w.norm();
+    const double numerator = u.dot(v.cross(w));
+    const double denominator = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
+    return std::atan2(numerator, denominator) / (2.0 * M_PI);
+}
+
+} // namespace vdbounce

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/base/vector.h"
+
+namespace vdbounce {
+
+/// The point of triangle a, b, c that is closest to p; degenerate triangles (a segment, a point) included. Double
+/// precision throughout. Method: Voronoi regions, Ericson, Real-Time Collision Detection, 5.1.5.
+Vec3d closestPointOnTriangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+/// Signed solid angle of the triangle seen from p, steradians over 4 pi: summed over a closed mesh it is 1 inside and 0
+/// outside. Method: Van Oosterom and Strackee 1983.
+double windingContribution(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c);
+
+} // namespace vdbounce

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/io/level_set_grid.h"
+#include "vdbounce/io/triangle_mesh.h"
+
+#include <cstdint>
+
+namespace vdbounce {
+
+struct VerifyOptions {
+    std::uint64_t samples = 10000; ///< active voxels to check, evenly spread over the grid; all when there are fewer
+};
+
+/// How far a level set is from the mesh it was made of.
+struct VerifyReport {
+    std::uint64_t samples = 0;
+    double maxErrorVx = 0.0;     ///< largest | |phi| - distance |, voxels
+    double rmsErrorVx = 0.0;     ///< root mean square of it, voxels
+    std::uint64_t signErrors = 0; ///< voxels on the wrong side by winding number; only meaningful for closed meshes
+};
+
+/// Compares active voxels with the exact distance to the mesh (a search tree in double precision, independent of how the
+/// grid was made). `offset` is what was subtracted from the distance: half the thickness of a sheet, else 0.
+VerifyReport verifyLevelSet(const LevelSetGrid& grid, const TriangleMesh& mesh, double offset, const VerifyOptions& options = {});
+
+} // namespace vdbounce

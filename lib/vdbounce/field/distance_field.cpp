@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/field/distance_field.h"
+
+#include "vdbounce/field/field_build.h"
+#include "vdbounce/field/index_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vdbounce {
+
+DistanceField::DistanceField(const LevelSetGrid& grid)
+{
+    FieldParts parts = buildFieldParts(grid);
+    transform_ = parts.transform;
+    blocks_ = std::move(parts.blocks);
+    indexBox_ = parts.indexBox;
+    background_ = parts.background;
+    lipschitz_ = lipschitzBound(blocks_, transform_);
+    clipped_ = surfaceReachesBox();
+}
+
+DistanceField::Cell::Cell(const Vec3d& index)
+{
+    const Vec3d floored = index.array().floor();
+    voxel = floored.cast<int>();
+    at = index - floored;
+}
+
+DistanceField::Neighbourhood DistanceField::neighbourhood(const Cell& cell, float (&copy)[64], float& constant) const
+{
+    const LeafBlocks::Entry entry = blocks_.entryAt(cell.voxel);
+    if (entry.isBlock()) {
+        constexpr int kMask = LeafBlocks::kLeafSide - 1;
+        const float* block = blocks_.block(entry.block());
+        return {block + (cell.voxel.x() & kMask) * LeafBlocks::kStrideX + (cell.voxel.y() & kMask) * LeafBlocks::kStrideY +
+                    (cell.voxel.z() & kMask),
+                LeafBlocks::kStrideX, LeafBlocks::kStrideY};
+    }
+    if (entry.isFar()) {
+        constant = blocks_.tileValue(entry);
+        return {nullptr, 0, 0};
+    }
+    for (int i = 0; i < 64; ++i) copy[i] = blocks_.valueAt(cell.voxel + Vec3i(i / 16 - 1, i / 4 % 4 - 1, i % 4 - 1));
+    return {copy, 16, 4};
+}
+
+double DistanceField::phiInBox(const Vec3d& index) const
+{
+    const Cell cell(index);
+    float copy[64];
+    float constant = 0.0f;
+    const Neighbourhood near = neighbourhood(cell, copy, constant);
+    if (near.values == nullptr) return constant;
+    return trilinear(near.values + near.strideX + near.strideY + 1, near.strideX, near.strideY, cell.at);
+}
+
+FieldSample DistanceField::sampleInBox(const Vec3d& index) const
+{
+    const Cell cell(index);
+    float copy[64];
+    float constant = 0.0f;
+    const Neighbourhood near = neighbourhood(cell, copy, constant);
+    if (near.values == nullptr) return {constant, Vec3d::Zero()};
+    return trilinearWithGradient(near.values, near.strideX, near.strideY, cell.at);
+}
+
+double DistanceField::phi(const Vec3d& world) const
+{
+    const Vec3d index = transform_.toIndex(world);
+    if (indexBox_.contains(index)) return phiInBox(index);
+    if (empty()) return background_;
+    const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
+    const double a = transform_.vectorToWorld(index - closest).norm();
+    const double b = phiInBox(closest);
+    return std::copysign(std::hypot(a, b), b);
+}
+
+FieldSample DistanceField::sample(const Vec3d& world) const
+{
+    const Vec3d index = transform_.toIndex(world);
+    if (indexBox_.contains(index)) {
+        FieldSample sample = sampleInBox(index);
+        sample.gradient = transform_.gradientToWorld(sample.gradient);
+        return sample;
+    }
+    if (empty()) return {background_, Vec3d::Zero()};
+    return sampleOutside(index);
+}
+
+FieldSample DistanceField::sampleOutside(const Vec3d& index) const
+{
+    const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
+    const Vec3d offset = transform_.vectorToWorld(index - closest);
+    const double a = offset.norm();
+    const FieldSample atBox = sampleInBox(closest);
+    const double b = atBox.phi;
+    const double magnitude = std::hypot(a, b);
+    // d/dx of sqrt(A^2 + B^2) is (A dA/dx + B dB/dx) / sqrt: A grows along the offset, and B changes only with the
+    // coordinates along which the closest point still moves.
+    Vec3d sliding = atBox.gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (closest[axis] != index[axis]) sliding[axis] = 0.0;
+    }
+    const Vec3d gradient = (offset + b * transform_.gradientToWorld(sliding)) / magnitude;
+    return {std::copysign(magnitude, b), std::copysign(1.0, b) * gradient};
+}
+
+Interval DistanceField::boundsInBox(const Vec3d& index) const
+{
+    const Cell cell(index);
+    // The true distance changes by at most the distance travelled, so every voxel bounds it from both sides; one that
+    // holds the background only says on which side and at least how far away the surface is.
+    const double diagonal = transform_.vectorToWorld(indexBox_.size()).norm();
+    Interval bounds{-diagonal, diagonal};
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+        const float value = blocks_.valueAt(cell.voxel + offset);
+        const double travelled = transform_.vectorToWorld(cell.at - offset.cast<double>()).norm();
+        if (value > -background_) bounds.lower = std::max(bounds.lower, value - travelled);
+        if (value < background_) bounds.upper = std::min(bounds.upper, value + travelled);
+    }
+    return bounds;
+}
+
+Interval DistanceField::bounds(const Vec3d& world) const
+{
+    const double infinity = std::numeric_limits<double>::infinity();
+    const Vec3d index = transform_.toIndex(world);
+    if (indexBox_.contains(index)) return boundsInBox(index);
+    if (empty()) return {background_, infinity};
+    const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
+    const double a = transform_.vectorToWorld(index - closest).norm();
+    const Interval atBox = boundsInBox(closest);
+    Interval bounds{-a + std::min(atBox.lower, 0.0), a + std::max(atBox.upper, 0.0)};
+    // The angle between the way to the box and any way on to the surface within it is at least a right one.
+    if (atBox.lower > 0.0) bounds.lower = std::hypot(a, atBox.lower);
+    if (atBox.upper < 0.0) bounds.upper = -std::hypot(a, atBox.upper);
+    return bounds;
+}
+
+double DistanceField::freeDistance(const Vec3d& world, double phi) const
+{
+    if (!clipped_ || phi <= 0.0) return phi;
+    // Beside a cut the sign changes where B does, which is no nearer than B tells.
+    const Vec3d index = transform_.toIndex(world);
+    if (indexBox_.contains(index)) return phi;
+    return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)));
+}
+
+Box DistanceField::worldBox() const
+{
+    Box box;
+    if (empty()) return box;
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d index((corner & 1) != 0 ? indexBox_.max.x() : indexBox_.min.x(), (corner & 2) != 0 ? indexBox_.max.y() : indexBox_.min.y(),
+                          (corner & 4) != 0 ? indexBox_.max.z() : indexBox_.min.z());
+        box.add(transform_.toWorld(index));
+    }
+    return box;
+}
+
+bool DistanceField::surfaceReachesBox() const
+{
+    if (empty()) return false;
+    const Vec3i low = indexBox_.min.cast<int>();
+    const Vec3i high = indexBox_.max.cast<int>();
+    for (int axis = 0; axis < 3; ++axis) {
+        const int u = (axis + 1) % 3;
+        const int v = (axis + 2) % 3;
+        for (const int side : {low[axis], high[axis]}) {
+            Vec3i voxel;
+            voxel[axis] = side;
+            for (voxel[u] = low[u]; voxel[u] <= high[u]; ++voxel[u]) {
+                for (voxel[v] = low[v]; voxel[v] <= high[v]; ++voxel[v]) {
+                    if (blocks_.valueAt(voxel) < 0.0f) return true;
+                }
+            }
+        }
+    }
+    return false;
+}
+
+} // namespace vdbounce

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/field/leaf_blocks.h"
+
+#include "vdbounce/base/parallel.h"
+
+#include <algorithm>
+
+namespace vdbounce {
+namespace {
+
+// Entries of the dense index over nodes at most: 4 MiB, enough for a grid of 12,000 voxels a side.
+constexpr std::int64_t kLargestDenseIndex = std::int64_t(1) << 20;
+
+std::int32_t tileCode(std::size_t tile, bool near) { return ~static_cast<std::int32_t>(2 * tile + (near ? 1 : 0)); }
+
+std::int32_t markedNear(std::int32_t code) { return ~(~code | 1); }
+
+Vec3i shifted(const Vec3i& v, int bits) { return Vec3i(v.x() >> bits, v.y() >> bits, v.z() >> bits); }
+
+std::size_t flatIndex(const Vec3i& at, const Vec3i& size)
+{
+    const auto u = [](int i) { return static_cast<std::size_t>(i); };
+    return (u(at.x()) * u(size.y()) + u(at.y())) * u(size.z()) + u(at.z());
+}
+
+std::size_t entryInNode(const Vec3i& leaf, int side)
+{
+    const int mask = side - 1;
+    return flatIndex(Vec3i(leaf.x() & mask, leaf.y() & mask, leaf.z() & mask), Vec3i::Constant(side));
+}
+
+template <class Body> void forEachIn(const Vec3i& from, const Vec3i& to, const Body& body)
+{
+    for (int x = from.x(); x <= to.x(); ++x) {
+        for (int y = from.y(); y <= to.y(); ++y) {
+            for (int z = from.z(); z <= to.z(); ++z) body(Vec3i(x, y, z));
+        }
+    }
+}
+
+} // namespace
+
+std::size_t LeafBlocks::NodePlaceHash::operator()(const NodePlace& place) const
+{
+    // Large odd factors spread neighbouring nodes over the table.
+    std::uint64_t hash = static_cast<std::uint32_t>(place.at.x()) * 0x9e3779b97f4a7c15ULL;
+    hash ^= static_cast<std::uint32_t>(place.at.y()) * 0xc2b2ae3d27d4eb4fULL;
+    hash ^= static_cast<std::uint32_t>(place.at.z()) * 0x165667b19e3779f9ULL;
+    return static_cast<std::size_t>(hash ^ (hash >> 32));
+}
+
+LeafBlocks::LeafBlocks(float background) : tileValues_{background} {}
+
+std::int32_t LeafBlocks::nodeAt(const Vec3i& node) const
+{
+    if (!denseNodes_.empty()) {
+        const Vec3i at = node - denseMin_;
+        const bool inside = (at.array() >= 0).all() && (at.array() < denseSize_.array()).all();
+        return inside ? denseNodes_[flatIndex(at, denseSize_)] : tileCode(0, false);
+    }
+    const auto found = sparseNodes_.find({node});
+    return found != sparseNodes_.end() ? found->second : tileCode(0, false);
+}
+
+std::int32_t LeafBlocks::codeAt(const Vec3i& voxel) const
+{
+    const Vec3i leaf = shifted(voxel, kLeafBits);
+    const std::int32_t node = nodeAt(shifted(leaf, kNodeBits));
+    return node >= 0 ? nodes_[static_cast<std::size_t>(node)].code[entryInNode(leaf, kNodeSide)] : node;
+}
+
+float LeafBlocks::valueAt(const Vec3i& voxel) const
+{
+    const Entry entry = entryAt(voxel);
+    if (!entry.isBlock()) return tileValue(entry);
+    const int mask = kLeafSide - 1;
+    const int offset = ((voxel.x() & mask) + kHaloBelow) * kStrideX + ((voxel.y() & mask) + kHaloBelow) * kStrideY +
+                       ((voxel.z() & mask) + kHaloBelow);
+    return block(entry.block())[offset];
+}
+
+LeafBlocks::Node& LeafBlocks::touchNode(const Vec3i& node)
+{
+    std::int32_t& number = sparseNodes_.try_emplace({node}, tileCode(0, false)).first->second;
+    if (number < 0) {
+        const std::int32_t filledWith = number;
+        number = static_cast<std::int32_t>(nodes_.size());
+        nodes_.emplace_back();
+        std::fill_n(nodes_.back().code, kNodeEntries, filledWith);
+    }
+    return nodes_[static_cast<std::size_t>(number)];
+}
+
+std::int32_t& LeafBlocks::touchCode(const Vec3i& leaf)
+{
+    return touchNode(shifted(leaf, kNodeBits)).code[entryInNode(leaf, kNodeSide)];
+}
+
+std::int32_t LeafBlocks::tileCodeFor(float value)
+{
+    const auto found = std::find(tileValues_.begin(), tileValues_.end(), value);
+    const auto tile = static_cast<std::size_t>(found - tileValues_.begin());
+    if (found == tileValues_.end()) tileValues_.push_back(value);
+    return tileCode(tile, false);
+}
+
+std::size_t LeafBlocks::addLeaf(const Vec3i& origin)
+{
+    const std::size_t number = origins_.size();
+    touchCode(shifted(origin, kLeafBits)) = static_cast<std::int32_t>(number);
+    origins_.push_back(origin);
+    return number;
+}
+
+void LeafBlocks::setTiles(const Vec3i& min, const Vec3i& max, float value)
+{
+    const std::int32_t code = tileCodeFor(value);
+    const Vec3i low = shifted(min, kLeafBits);
+    const Vec3i high = shifted(max, kLeafBits);
+    forEachIn(shifted(low, kNodeBits), shifted(high, kNodeBits), [&](const Vec3i& place) {
+        const Vec3i first = place * kNodeSide;
+        const Vec3i last = first + Vec3i::Constant(kNodeSide - 1);
+        const bool whole = (first.array() >= low.array()).all() && (last.array() <= high.array()).all();
+        std::int32_t& number = sparseNodes_.try_emplace({place}, tileCode(0, false)).first->second;
+        if (whole && number < 0) {
+            number = code;
+            return;
+        }
+        Node& node = touchNode(place);
+        forEachIn(first.cwiseMax(low), last.cwiseMin(high), [&](const Vec3i& leaf) {
+            std::int32_t& present = node.code[entryInNode(leaf, kNodeSide)];
+            if (present < 0) present = code;
+        });
+    });
+}
+
+void LeafBlocks::link()
+{
+    touchNodesThatMeetOthers();
+    indexNodesDensely();
+    std::vector<Vec3i> places(nodes_.size());
+    const auto note = [&](const Vec3i& place, std::int32_t number) {
+        if (number >= 0) places[static_cast<std::size_t>(number)] = place;
+    };
+    if (denseNodes_.empty()) {
+        for (const auto& [place, number] : sparseNodes_) note(place.at, number);
+    } else {
+        forEachIn(denseMin_, denseMin_ + denseSize_ - Vec3i::Ones(),
+                  [&](const Vec3i& place) { note(place, denseNodes_[flatIndex(place - denseMin_, denseSize_)]); });
+    }
+    // Marks are the lowest bit of a code and every comparison ignores them, but nodes read each other's codes: so
+    // all marks are found before any is set.
+    std::vector<std::vector<std::size_t>> near(nodes_.size());
+    forEachIndex(nodes_.size(), 1, [&](std::size_t n) { near[n] = entriesNextToOthers(places[n]); });
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        for (std::size_t entry : near[n]) nodes_[n].code[entry] = markedNear(nodes_[n].code[entry]);
+    }
+    values_.resize(origins_.size() * kBlockSize);
+}
+
+// A node filled by one tile, beside a node that holds something else along their border, needs entries of its own to mark.
+void LeafBlocks::touchNodesThatMeetOthers()
+{
+    std::vector<Vec3i> work;
+    for (const auto& [place, number] : sparseNodes_) work.push_back(place.at);
+    while (!work.empty()) {
+        const Vec3i place = work.back();
+        work.pop_back();
+        forEachIn(Vec3i::Constant(-1), Vec3i::Ones(), [&](const Vec3i& side) {
+            const std::int32_t neighbour = nodeAt(place + side);
+            if (neighbour >= 0 || borderIs(place, side, neighbour)) return;
+            touchNode(place + side);
+            work.push_back(place + side);
+        });
+    }
+}
+
+// True when every entry of the node at `place` along the border that faces `side` has this code.
+bool LeafBlocks::borderIs(const Vec3i& place, const Vec3i& side, std::int32_t code) const
+{
+    const std::int32_t number = nodeAt(place);
+    if (number < 0) return number == code;
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    const int last = kNodeSide - 1;
+    const Vec3i from = side.unaryExpr([&](int s) { return s > 0 ? last : 0; });
+    const Vec3i to = side.unaryExpr([&](int s) { return s < 0 ? 0 : last; });
+    bool same = true;
+    forEachIn(from, to, [&](const Vec3i& leaf) { same = same && node.code[entryInNode(leaf, kNodeSide)] == code; });
+    return same;
+}
+
+// The tiles of a node for which any of the 26 leaves around is a block or a tile of another value.
+std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place) const
+{
+    constexpr int kSide = kNodeSide + 2;
+    const Vec3i size = Vec3i::Constant(kSide);
+    const Vec3i first = place * kNodeSide;
+    std::vector<std::int32_t> window(static_cast<std::size_t>(kSide) * kSide * kSide);
+    forEachIn(Vec3i::Zero(), Vec3i::Constant(kSide - 1), [&](const Vec3i& at) {
+        const Vec3i leaf = first + at - Vec3i::Ones();
+        window[flatIndex(at, size)] = codeAt(leaf * kLeafSide);
+    });
+
+    std::vector<std::size_t> entries;
+    forEachIn(Vec3i::Zero(), Vec3i::Constant(kNodeSide - 1), [&](const Vec3i& at) {
+        const std::int32_t code = window[flatIndex(at + Vec3i::Ones(), size)];
+        if (code >= 0) return;
+        bool differs = false;
+        for (int n = 0; n < 27 && !differs; ++n) {
+            differs = window[flatIndex(at + Vec3i(n / 9, n / 3 % 3, n % 3), size)] != code;
+        }
+        if (differs) entries.push_back(entryInNode(at, kNodeSide));
+    });
+    return entries;
+}
+
+void LeafBlocks::indexNodesDensely()
+{
+    if (sparseNodes_.empty()) return;
+    Vec3i low = sparseNodes_.begin()->first.at;
+    Vec3i high = low;
+    for (const auto& [place, number] : sparseNodes_) {
+        low = low.cwiseMin(place.at);
+        high = high.cwiseMax(place.at);
+    }
+    const Eigen::Matrix<std::int64_t, 3, 1> size = (high - low + Vec3i::Ones()).cast<std::int64_t>();
+    if (size.x() * size.y() > kLargestDenseIndex || size.prod() > kLargestDenseIndex) return;
+    denseMin_ = low;
+    denseSize_ = high - low + Vec3i::Ones();
+    denseNodes_.assign(static_cast<std::size_t>(size.prod()), tileCode(0, false));
+    for (const auto& [place, number] : sparseNodes_) denseNodes_[flatIndex(place.at - denseMin_, denseSize_)] = number;
+    sparseNodes_.clear();
+}
+
+std::size_t LeafBlocks::memoryBytes() const
+{
+    return values_.size() * sizeof(float) + nodes_.size() * sizeof(Node) + denseNodes_.size() * sizeof(std::int32_t) +
+           origins_.size() * sizeof(Vec3i);
+}
+
+} // namespace vdbounce

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/field/stencil.h"
+
+namespace vdbounce {
+namespace {
+
+// Weights of the values at -1, 0, 1, 2 along one axis for a point at `t` between 0 and 1: of interpolating them, and of
+// interpolating their central differences.
+struct AxisWeights {
+    explicit AxisWeights(double t)
+        : value{0.0, 1.0 - t, t, 0.0}, difference{-0.5 * (1.0 - t), -0.5 * t, 0.5 * (1.0 - t), 0.5 * t}
+    {
+    }
+    double value[4];
+    double difference[4];
+};
+
+} // namespace
+
+double trilinear(const float* values, int strideX, int strideY, const Vec3d& at)
+{
+    const auto alongZ = [&](const float* row) { return double(row[0]) * (1.0 - at.z()) + double(row[1]) * at.z(); };
+    const auto alongYZ = [&](const float* plane) {
+        return alongZ(plane) * (1.0 - at.y()) + alongZ(plane + strideY) * at.y();
+    };
+    return alongYZ(values) * (1.0 - at.x()) + alongYZ(values + strideX) * at.x();
+}
+
+FieldSample trilinearWithGradient(const float* values, int strideX, int strideY, const Vec3d& at)
+{
+    const AxisWeights x(at.x());
+    const AxisWeights y(at.y());
+    const AxisWeights z(at.z());
+    FieldSample sample;
+    // The gradient along an axis reaches one voxel further on that axis only, so rows at the outer edge of both x
+    // and y have no part in it.
+    for (int i = 0; i < 4; ++i) {
+        const bool outer = i == 0 || i == 3;
+        for (int j = outer ? 1 : 0; j < (outer ? 3 : 4); ++j) {
+            const float* row = values + i * strideX + j * strideY;
+            const double interpolated = double(row[1]) * z.value[1] + double(row[2]) * z.value[2];
+            sample.gradient.x() += x.difference[i] * y.value[j] * interpolated;
+            sample.gradient.y() += x.value[i] * y.difference[j] * interpolated;
+            if (outer || j == 0 || j == 3) continue;
+            const double weight = x.value[i] * y.value[j];
+            const double difference = double(row[0]) * z.difference[0] + double(row[1]) * z.difference[1] +
+                                      double(row[2]) * z.difference[2] + double(row[3]) * z.difference[3];
+            sample.phi += weight * interpolated;
+            sample.gradient.z() += weight * difference;
+        }
+    }
+    return sample;
+}
+
+} // namespace vdbounce

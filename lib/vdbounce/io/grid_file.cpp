@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/io/grid_file.h"
+
+#include "vdbounce/base/error.h"
+#include "vdbounce/io/number_text.h"
+#include "vdbounce/io/openvdb_grid.h"
+#include "vdbounce/io/vdb_archive.h"
+
+#include <openvdb/points/PointDataGrid.h>
+
+#include <cmath>
+
+namespace vdbounce {
+namespace {
+
+std::string storedType(const openvdb::GridBase& grid)
+{
+    return grid.saveFloatAsHalf() ? "half" : grid.valueType();
+}
+
+// A float grid that shares name, transform and topology with a double one.
+openvdb::FloatGrid::Ptr toFloat(const openvdb::DoubleGrid& grid)
+{
+    auto result = std::make_shared<openvdb::FloatGrid>(grid);
+    result->setName(grid.getName());
+    result->setGridClass(grid.getGridClass());
+    return result;
+}
+
+openvdb::FloatGrid::ConstPtr asFloatGrid(const openvdb::GridBase::Ptr& grid)
+{
+    if (auto floats = openvdb::gridPtrCast<openvdb::FloatGrid>(grid)) return floats;
+    if (auto doubles = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid)) return toFloat(*doubles);
+    return nullptr;
+}
+
+bool holdsDistances(const openvdb::GridBase& grid)
+{
+    return grid.isType<openvdb::FloatGrid>() || grid.isType<openvdb::DoubleGrid>();
+}
+
+std::string classText(const openvdb::GridBase& grid)
+{
+    return openvdb::GridBase::gridClassToString(grid.getGridClass());
+}
+
+GridEntry describe(const openvdb::GridBase& grid)
+{
+    GridEntry entry;
+    entry.name = grid.getName();
+    entry.valueType = storedType(grid);
+    entry.gridClass = classText(grid);
+    entry.isPoints = grid.isType<openvdb::points::PointDataGrid>();
+    return entry;
+}
+
+std::string listing(const openvdb::GridPtrVec& grids)
+{
+    std::string text;
+    for (const auto& grid : grids) {
+        text += (text.empty() ? "'" : ", '") + grid->getName() + "' (" + storedType(*grid) + ", " + classText(*grid) + ")";
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+// The grid of that name, or without one the first level set, or else the first grid of numbers (which is then
+// refused or accepted by what it is).
+openvdb::GridBase::Ptr choose(const openvdb::GridPtrVec& grids, const std::string& name)
+{
+    openvdb::GridBase::Ptr candidate;
+    for (const auto& grid : grids) {
+        if (!name.empty()) {
+            if (grid->getName() == name) return grid;
+        } else if (holdsDistances(*grid)) {
+            if (grid->getGridClass() == openvdb::GRID_LEVEL_SET) return grid;
+            if (!candidate) candidate = grid;
+        }
+    }
+    return candidate;
+}
+
+void requireLevelSet(const openvdb::FloatGrid& grid, const std::string& place)
+{
+    const std::string remedy = "convert it to a level set first";
+    if (grid.getGridClass() == openvdb::GRID_FOG_VOLUME) throw InputError(place, "is a fog volume, not a level set", remedy);
+    if (grid.getGridClass() == openvdb::GRID_STAGGERED) throw InputError(place, "is staggered, not a level set", remedy);
+    if (!grid.transform().isLinear()) {
+        throw InputError(place, "has a transform that is not linear (" + grid.transform().mapType() + ")", "resample it");
+    }
+    if (!(grid.background() > 0.0f) || !std::isfinite(grid.background())) {
+        throw InputError(place, "has background " + numberText(grid.background()) + ", a level set's is positive and finite",
+                         "write it with its exterior band width as background");
+    }
+}
+
+// An unsigned field is >= 0 everywhere and has no inside, yet reaches close to zero: everything would leak through.
+void refuseUnsigned(const openvdb::FloatGrid& grid, const std::string& place)
+{
+    if (grid.getGridClass() == openvdb::GRID_LEVEL_SET) return;
+    for (auto it = grid.cbeginValueAll(); it; ++it) {
+        if (*it < 0.0f) return;
+    }
+    throw InputError(place, "is no level set and holds no negative value: an unsigned field has no inside",
+                     "make a signed one, or set its grid class to 'level set'");
+}
+
+} // namespace
+
+LevelSetGrid toLevelSetGrid(openvdb::FloatGrid::ConstPtr grid, const std::string& place)
+{
+    requireLevelSet(*grid, place);
+    refuseUnsigned(*grid, place);
+    return LevelSetGrid(std::make_shared<LevelSetGrid::Holder>(LevelSetGrid::Holder{std::move(grid)}));
+}
+
+LevelSetGrid readLevelSet(const std::string& path, const std::string& gridName)
+{
+    LevelSetGrid result;
+    withVdbFile(path, [&](openvdb::io::File& file) {
+        const auto headers = file.readAllGridMetadata();
+        const auto chosen = choose(*headers, gridName);
+        if (!chosen) {
+            throw InputError(path, gridName.empty() ? "holds no level set but " + listing(*headers)
+                                                    : "holds no grid '" + gridName + "' but " + listing(*headers),
+                             "name a file, or a grid in it, with signed distances");
+        }
+        const std::string place = path + ": grid '" + chosen->getName() + "'";
+        if (!holdsDistances(*chosen)) {
+            throw InputError(place, "holds " + chosen->valueType() + ", not distances", "name a grid of float or double");
+        }
+        result = toLevelSetGrid(asFloatGrid(file.readGrid(chosen->getName())), place);
+    });
+    return result;
+}
+
+void writeLevelSet(const LevelSetGrid& grid, const std::string& path, const GridWriteOptions& options)
+{
+    // The copy shares the tree and has its own metadata.
+    const openvdb::FloatGrid& source = toOpenVdb(grid);
+    openvdb::MetaMap metadata(source);
+    metadata.removeMeta(openvdb::GridBase::META_SAVE_HALF_FLOAT);
+    if (options.half) metadata.insertMeta(openvdb::GridBase::META_SAVE_HALF_FLOAT, openvdb::BoolMetadata(true));
+    writeVdbFile({source.copyReplacingMetadata(metadata)}, path);
+}
+
+std::vector<GridEntry> listGrids(const std::string& path)
+{
+    std::vector<GridEntry> entries;
+    withVdbFile(path, [&](openvdb::io::File& file) {
+        for (const auto& grid : *file.readAllGridMetadata()) entries.push_back(describe(*grid));
+    });
+    return entries;
+}
+
+LevelSetSummary summarize(const LevelSetGrid& handle)
+{
+    const openvdb::FloatGrid& grid = toOpenVdb(handle);
+    LevelSetSummary summary;
+    const openvdb::Vec3d voxel = grid.voxelSize();
+    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+    summary.name = grid.getName();
+    summary.valueType = storedType(grid);
+    summary.voxelSize = Vec3d(voxel.x(), voxel.y(), voxel.z());
+    summary.background = grid.background();
+    summary.halfWidthVx = summary.background / summary.voxelSize.minCoeff();
+    summary.activeVoxels = grid.activeVoxelCount();
+    summary.leaves = grid.tree().leafCount();
+    summary.memoryBytes = grid.memUsage();
+    summary.indexMin = Vec3i(box.min().x(), box.min().y(), box.min().z());
+    summary.indexMax = Vec3i(box.max().x(), box.max().y(), box.max().z());
+    if (box.empty()) return summary;
+    for (int corner = 0; corner < 8; ++corner) {
+        const openvdb::Vec3d index((corner & 1) != 0 ? box.max().x() : box.min().x(), (corner & 2) != 0 ? box.max().y() : box.min().y(),
+                                   (corner & 4) != 0 ? box.max().z() : box.min().z());
+        const openvdb::Vec3d world = grid.indexToWorld(index);
+        summary.worldBox.add(Vec3d(world.x(), world.y(), world.z()));
+    }
+    return summary;
+}
+
+} // namespace vdbounce

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// @file
+/// Numbers to and from text, independent of the locale. What is written reads back to the same bits.
+
+namespace vdbounce {
+
+/// The number that the whole of `text` spells, or nothing. Accepts a leading '+', "nan" and "inf".
+std::optional<double> parseDouble(std::string_view text);
+std::optional<std::int64_t> parseInteger(std::string_view text);
+
+/// Appends the shortest text that reads back to `value`.
+void appendNumber(std::string& out, double value);
+void appendNumber(std::string& out, std::int64_t value);
+
+/// The shortest text that reads back to `value`.
+std::string numberText(double value);
+
+} // namespace vdbounce

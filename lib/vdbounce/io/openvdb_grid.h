@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/io/level_set_grid.h"
+
+#include <openvdb/openvdb.h>
+
+/// @file
+/// The door between vdbounce and code that uses OpenVDB itself.
+
+namespace vdbounce {
+
+struct LevelSetGrid::Holder {
+    openvdb::FloatGrid::ConstPtr grid;
+};
+
+/// Shares `grid`; it must not be changed afterwards. Throws InputError unless it is a signed level set with a linear
+/// transform and a positive, finite background; `place` names it in the error.
+LevelSetGrid toLevelSetGrid(openvdb::FloatGrid::ConstPtr grid, const std::string& place);
+
+inline const openvdb::FloatGrid& toOpenVdb(const LevelSetGrid& grid) { return *grid.holder().grid; }
+
+} // namespace vdbounce
