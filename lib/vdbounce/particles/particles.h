@@ -17,8 +17,8 @@ namespace vdbounce {
 struct Particles {
     std::vector<Vec3d> position;
     std::vector<Vec3d> velocity;
-    std::vector<double> radius; ///< world units, >= 0; 0 is a point
-    std::vector<double> mass;   ///< > 0
+    std::vector<double> radius;   ///< world units, >= 0; 0 is a point
+    std::vector<double> mass;     ///< > 0
     std::vector<std::int64_t> id; ///< kept through everything; the position in the input where the file has none
 
     std::size_t size() const { return position.size(); }

@@ -7,13 +7,14 @@
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kSamples = 4096;       // enough to place the 5 % quantiles within a percent
-constexpr double kTrimmed = 0.05;            // at each end
-constexpr double kParticlesPerVoxel = 8.0;   // OpenVDB's advice for points grids
+constexpr std::size_t kSamples = 4096;         // enough to place the 5 % quantiles within a percent
+constexpr double kTrimmed = 0.05;              // at each end
+constexpr double kParticlesPerVoxel = 8.0;     // OpenVDB's advice for points grids
 constexpr double kLargestIndex = 1073741824.0; // 2^30: leaves room for leaf borders within 32 bits
 constexpr double kDefaultVoxel = 1.0;
 
-// The box of the middle nine tenths of evenly spaced samples, axis by axis; its sides are 0 for fewer than two particles.
+// The box of the middle nine tenths of evenly spaced samples, axis by axis; its sides are 0 for fewer than two
+// particles.
 Vec3d trimmedExtent(const Particles& particles)
 {
     const std::size_t stride = std::max<std::size_t>(1, particles.size() / kSamples);
@@ -25,7 +26,9 @@ Vec3d trimmedExtent(const Particles& particles)
         }
         if (values.size() < 2) continue;
         std::sort(values.begin(), values.end());
-        const auto at = [&](double quantile) { return values[static_cast<std::size_t>(quantile * double(values.size() - 1))]; };
+        const auto at = [&](double quantile) {
+            return values[static_cast<std::size_t>(quantile * double(values.size() - 1))];
+        };
         extent[axis] = at(1.0 - kTrimmed) - at(kTrimmed);
     }
     return extent;
