@@ -13,10 +13,7 @@
 namespace vdbounce {
 namespace {
 
-std::string storedType(const openvdb::GridBase& grid)
-{
-    return grid.saveFloatAsHalf() ? "half" : grid.valueType();
-}
+std::string storedType(const openvdb::GridBase& grid) { return grid.saveFloatAsHalf() ? "half" : grid.valueType(); }
 
 // A float grid that shares name, transform and topology with a double one.
 openvdb::FloatGrid::Ptr toFloat(const openvdb::DoubleGrid& grid)
@@ -58,7 +55,8 @@ std::string listing(const openvdb::GridPtrVec& grids)
 {
     std::string text;
     for (const auto& grid : grids) {
-        text += (text.empty() ? "'" : ", '") + grid->getName() + "' (" + storedType(*grid) + ", " + classText(*grid) + ")";
+        text +=
+            (text.empty() ? "'" : ", '") + grid->getName() + "' (" + storedType(*grid) + ", " + classText(*grid) + ")";
     }
     return text.empty() ? "nothing" : text;
 }
@@ -82,13 +80,17 @@ openvdb::GridBase::Ptr choose(const openvdb::GridPtrVec& grids, const std::strin
 void requireLevelSet(const openvdb::FloatGrid& grid, const std::string& place)
 {
     const std::string remedy = "convert it to a level set first";
-    if (grid.getGridClass() == openvdb::GRID_FOG_VOLUME) throw InputError(place, "is a fog volume, not a level set", remedy);
-    if (grid.getGridClass() == openvdb::GRID_STAGGERED) throw InputError(place, "is staggered, not a level set", remedy);
+    if (grid.getGridClass() == openvdb::GRID_FOG_VOLUME)
+        throw InputError(place, "is a fog volume, not a level set", remedy);
+    if (grid.getGridClass() == openvdb::GRID_STAGGERED)
+        throw InputError(place, "is staggered, not a level set", remedy);
     if (!grid.transform().isLinear()) {
-        throw InputError(place, "has a transform that is not linear (" + grid.transform().mapType() + ")", "resample it");
+        throw InputError(place, "has a transform that is not linear (" + grid.transform().mapType() + ")",
+                         "resample it");
     }
     if (!(grid.background() > 0.0f) || !std::isfinite(grid.background())) {
-        throw InputError(place, "has background " + numberText(grid.background()) + ", a level set's is positive and finite",
+        throw InputError(place,
+                         "has background " + numberText(grid.background()) + ", a level set's is positive and finite",
                          "write it with its exterior band width as background");
     }
 }
@@ -120,13 +122,15 @@ LevelSetGrid readLevelSet(const std::string& path, const std::string& gridName)
         const auto headers = file.readAllGridMetadata();
         const auto chosen = choose(*headers, gridName);
         if (!chosen) {
-            throw InputError(path, gridName.empty() ? "holds no level set but " + listing(*headers)
-                                                    : "holds no grid '" + gridName + "' but " + listing(*headers),
+            throw InputError(path,
+                             gridName.empty() ? "holds no level set but " + listing(*headers)
+                                              : "holds no grid '" + gridName + "' but " + listing(*headers),
                              "name a file, or a grid in it, with signed distances");
         }
         const std::string place = path + ": grid '" + chosen->getName() + "'";
         if (!holdsDistances(*chosen)) {
-            throw InputError(place, "holds " + chosen->valueType() + ", not distances", "name a grid of float or double");
+            throw InputError(place, "holds " + chosen->valueType() + ", not distances",
+                             "name a grid of float or double");
         }
         result = toLevelSetGrid(asFloatGrid(file.readGrid(chosen->getName())), place);
     });
@@ -147,7 +151,8 @@ std::vector<GridEntry> listGrids(const std::string& path)
 {
     std::vector<GridEntry> entries;
     withVdbFile(path, [&](openvdb::io::File& file) {
-        for (const auto& grid : *file.readAllGridMetadata()) entries.push_back(describe(*grid));
+        const auto grids = file.readAllGridMetadata();
+        for (const auto& grid : *grids) entries.push_back(describe(*grid));
     });
     return entries;
 }
@@ -170,7 +175,8 @@ LevelSetSummary summarize(const LevelSetGrid& handle)
     summary.indexMax = Vec3i(box.max().x(), box.max().y(), box.max().z());
     if (box.empty()) return summary;
     for (int corner = 0; corner < 8; ++corner) {
-        const openvdb::Vec3d index((corner & 1) != 0 ? box.max().x() : box.min().x(), (corner & 2) != 0 ? box.max().y() : box.min().y(),
+        const openvdb::Vec3d index((corner & 1) != 0 ? box.max().x() : box.min().x(),
+                                   (corner & 2) != 0 ? box.max().y() : box.min().y(),
                                    (corner & 4) != 0 ? box.max().z() : box.min().z());
         const openvdb::Vec3d world = grid.indexToWorld(index);
         summary.worldBox.add(Vec3d(world.x(), world.y(), world.z()));

@@ -36,7 +36,8 @@ bool MeshAssembly::soundCorners(const std::vector<std::int64_t>& corners) const
 void MeshAssembly::refuseFace(const std::vector<std::int64_t>& corners, const std::string& place) const
 {
     if (corners.size() < 3) {
-        throw InputError(place, "a face with " + std::to_string(corners.size()) + " corners", "a face needs at least 3");
+        throw InputError(place, "a face with " + std::to_string(corners.size()) + " corners",
+                         "a face needs at least 3");
     }
     for (std::int64_t corner : corners) {
         if (corner < 0 || corner >= static_cast<std::int64_t>(mesh_.points.size())) {

@@ -15,8 +15,9 @@ Vec3d readVertex(TextCursor& text)
     for (int axis = 0; axis < 3; ++axis) {
         const std::string_view token = text.tokenOnLine();
         const auto value = parseDouble(token);
-        if (!value) text.fail("a vertex with a coordinate that is no number: '" + std::string(token.substr(0, 40)) + "'",
-                              "write 'v x y z'");
+        if (!value)
+            text.fail("a vertex with a coordinate that is no number: '" + std::string(token.substr(0, 40)) + "'",
+                      "write 'v x y z'");
         point[axis] = *value;
     }
     return point;
@@ -27,7 +28,8 @@ std::int64_t readCorner(TextCursor& text, std::string_view token, std::size_t po
 {
     const auto index = parseInteger(token.substr(0, token.find('/')));
     if (!index || *index == 0) {
-        text.fail("face corner '" + std::string(token.substr(0, 40)) + "' is no index", "indices count from 1, or backwards from -1");
+        text.fail("face corner '" + std::string(token.substr(0, 40)) + "' is no index",
+                  "indices count from 1, or backwards from -1");
     }
     return *index > 0 ? *index - 1 : static_cast<std::int64_t>(pointCount) + *index;
 }

@@ -38,7 +38,8 @@ void readFaces(PlyReader& ply, const PlyElement& element, MeshAssembly& assembly
         for (double entry : ply.list(column)) {
             const auto corner = static_cast<std::int64_t>(entry);
             if (static_cast<double>(corner) != entry) {
-                throw InputError(ply.place(), "face corner " + numberText(entry) + " is no whole number", "export the mesh again");
+                throw InputError(ply.place(), "face corner " + numberText(entry) + " is no whole number",
+                                 "export the mesh again");
             }
             corners.push_back(corner);
         }

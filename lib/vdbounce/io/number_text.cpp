@@ -30,25 +30,23 @@ template <class T> void append(std::string& out, T value)
 
 } // namespace
 
-std::optional<double> parseDouble(std::string_view text)
+std::optional<double> parseDouble(std::string_view text) { return parseWhole<double>(text); }
+
+std::optional<std::int64_t> parseInteger(std::string_view text) { return parseWhole<std::int64_t>(text); }
+
+std::optional<Length> parseLength(std::string_view text)
 {
-    return parseWhole<double>(text);
+    constexpr std::string_view kVoxels = "vx";
+    const bool inVoxels = text.size() > kVoxels.size() && text.substr(text.size() - kVoxels.size()) == kVoxels;
+    if (inVoxels) text.remove_suffix(kVoxels.size());
+    const auto value = parseDouble(text);
+    if (!value) return std::nullopt;
+    return Length{*value, inVoxels};
 }
 
-std::optional<std::int64_t> parseInteger(std::string_view text)
-{
-    return parseWhole<std::int64_t>(text);
-}
+void appendNumber(std::string& out, double value) { append(out, value); }
 
-void appendNumber(std::string& out, double value)
-{
-    append(out, value);
-}
-
-void appendNumber(std::string& out, std::int64_t value)
-{
-    append(out, value);
-}
+void appendNumber(std::string& out, std::int64_t value) { append(out, value); }
 
 std::string numberText(double value)
 {

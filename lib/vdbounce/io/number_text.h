@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/base/length.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +16,9 @@ namespace vdbounce {
 /// The number that the whole of `text` spells, or nothing. Accepts a leading '+', "nan" and "inf".
 std::optional<double> parseDouble(std::string_view text);
 std::optional<std::int64_t> parseInteger(std::string_view text);
+
+/// A length: "0.25" in world units, "3vx" in voxels.
+std::optional<Length> parseLength(std::string_view text);
 
 /// Appends the shortest text that reads back to `value`.
 void appendNumber(std::string& out, double value);

@@ -13,7 +13,8 @@ ParticleTable::ParticleTable(const std::vector<std::string>& names, const std::s
             if (name == kParticleColumnNames[c]) column = static_cast<int>(c);
         }
         if (column >= 0) {
-            if (present_[static_cast<std::size_t>(column)]) throw InputError(place, "column '" + name + "' comes twice", "remove one of them");
+            if (present_[static_cast<std::size_t>(column)])
+                throw InputError(place, "column '" + name + "' comes twice", "remove one of them");
             present_[static_cast<std::size_t>(column)] = true;
         }
         columns_.push_back(column);
@@ -21,7 +22,8 @@ ParticleTable::ParticleTable(const std::vector<std::string>& names, const std::s
     if (!has(ParticleColumn::X) || !has(ParticleColumn::Y) || !has(ParticleColumn::Z)) {
         throw InputError(place, "there are no columns x, y and z", "name the columns of the positions x, y and z");
     }
-    const int velocityParts = int(has(ParticleColumn::Vx)) + int(has(ParticleColumn::Vy)) + int(has(ParticleColumn::Vz));
+    const int velocityParts =
+        int(has(ParticleColumn::Vx)) + int(has(ParticleColumn::Vy)) + int(has(ParticleColumn::Vz));
     if (velocityParts != 0 && velocityParts != 3) {
         throw InputError(place, "only part of vx, vy and vz is there", "give all three or none");
     }

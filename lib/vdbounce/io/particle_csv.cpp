@@ -59,7 +59,8 @@ std::vector<std::string> headerNames(std::string_view header)
     return names;
 }
 
-void setCell(Particles& particles, std::size_t row, ParticleColumn column, std::string_view cell, const std::string& place)
+void setCell(Particles& particles, std::size_t row, ParticleColumn column, std::string_view cell,
+             const std::string& place)
 {
     if (column == ParticleColumn::Id) {
         const auto id = parseInteger(cell);
@@ -77,7 +78,8 @@ void setCell(Particles& particles, std::size_t row, ParticleColumn column, std::
     ParticleTable::set(particles, row, column, *value);
 }
 
-void readRow(Particles& particles, std::size_t index, const Row& row, const ParticleTable& table, const std::string& path)
+void readRow(Particles& particles, std::size_t index, const Row& row, const ParticleTable& table,
+             const std::string& path)
 {
     const auto place = [&] { return path + ":" + std::to_string(row.line); };
     std::string_view rest = row.text;
@@ -103,7 +105,8 @@ Particles readCsvParticles(const std::string& path)
     const ParticleTable table(headerNames(rows[0].text), path + ":" + std::to_string(rows[0].line));
     Particles particles;
     table.resize(particles, rows.size() - 1);
-    forEachIndex(rows.size() - 1, kRowsPerBlock, [&](std::size_t i) { readRow(particles, i, rows[i + 1], table, path); });
+    forEachIndex(rows.size() - 1, kRowsPerBlock,
+                 [&](std::size_t i) { readRow(particles, i, rows[i + 1], table, path); });
     return particles;
 }
 

@@ -10,13 +10,14 @@
 ///
 /// | ending | names | precision |
 /// |---|---|---|
-/// | .csv | a header, then columns by name: x,y,z and vx,vy,vz,radius,mass,id where present; rows ordered by id | reads back to the same bits |
-/// | .ply | vertex properties of the same names; written binary little-endian, read in all three forms | reads back to the same bits |
-/// | .vdb | an OpenVDB points grid with P, v, pscale, mass, id | single; positions relative to their voxel, so to 2^-26 of a points voxel anywhere in space |
+/// | .csv | a header, then columns by name: x,y,z and vx,vy,vz,radius,mass,id where present; rows ordered by id | reads
+/// back to the same bits | | .ply | vertex properties of the same names; written binary little-endian, read in all
+/// three forms | reads back to the same bits | | .vdb | an OpenVDB points grid with P, v, pscale, mass, id | single;
+/// positions relative to their voxel, so to 2^-26 of a points voxel anywhere in space |
 ///
 /// Attributes that a file lacks stay empty (velocity, radius, mass) or become the position in the file (id).
-/// Other columns and attributes are passed over. Errors are InputErrors naming file and line or element, a value that is
-/// not a number included; NaN and infinity are numbers and are read as they stand.
+/// Other columns and attributes are passed over. Errors are InputErrors naming file and line or element, a value that
+/// is not a number included; NaN and infinity are numbers and are read as they stand.
 
 namespace vdbounce {
 

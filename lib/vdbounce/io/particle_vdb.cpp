@@ -100,7 +100,8 @@ void setVoxelOffsets(Leaf& leaf, const Slot* slots, std::size_t count)
 void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descriptor, const Slot* slots, std::size_t count,
               const Particles& particles, double voxelSize)
 {
-    leaf.initializeAttributes(descriptor, openvdb::Index(count));
+    leaf.replaceAttributeSet(new points::AttributeSet(descriptor, openvdb::Index(count)),
+                             /*allowMismatchingDescriptors=*/true);
     setVoxelOffsets(leaf, slots, count);
     fill<PositionArray>(leaf, kPosition, slots, count, [&](const Slot& slot) {
         const Vec3d& p = particles.position[slot.particle];
@@ -108,10 +109,12 @@ void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descripto
         return toVec3f(p / voxelSize - Vec3d(ijk.x(), ijk.y(), ijk.z()));
     });
     if (!particles.velocity.empty()) {
-        fill<VectorArray>(leaf, kVelocity, slots, count, [&](const Slot& s) { return toVec3f(particles.velocity[s.particle]); });
+        fill<VectorArray>(leaf, kVelocity, slots, count,
+                          [&](const Slot& s) { return toVec3f(particles.velocity[s.particle]); });
     }
     if (!particles.radius.empty()) {
-        fill<FloatArray>(leaf, kRadius, slots, count, [&](const Slot& s) { return float(particles.radius[s.particle]); });
+        fill<FloatArray>(leaf, kRadius, slots, count,
+                         [&](const Slot& s) { return float(particles.radius[s.particle]); });
     }
     if (!particles.mass.empty()) {
         fill<FloatArray>(leaf, kMass, slots, count, [&](const Slot& s) { return float(particles.mass[s.particle]); });
@@ -121,7 +124,8 @@ void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descripto
 
 Grid::Ptr findPoints(openvdb::io::File& file, const std::string& path)
 {
-    for (const auto& header : *file.readAllGridMetadata()) {
+    const auto headers = file.readAllGridMetadata();
+    for (const auto& header : *headers) {
         if (header->isType<Grid>()) return openvdb::gridPtrCast<Grid>(file.readGrid(header->getName()));
     }
     throw InputError(path, "holds no points", "name a .vdb file with an OpenVDB points grid");
@@ -139,7 +143,10 @@ template <class T, class Put> bool read(const Leaf& leaf, const char* name, cons
     return true;
 }
 
-template <class T> Vec3d toVec3d(const openvdb::math::Vec3<T>& v) { return Vec3d(double(v.x()), double(v.y()), double(v.z())); }
+template <class T> Vec3d toVec3d(const openvdb::math::Vec3<T>& v)
+{
+    return Vec3d(double(v.x()), double(v.y()), double(v.z()));
+}
 
 void readPositions(const Leaf& leaf, const Grid& grid, Vec3d* positions)
 {
@@ -196,6 +203,7 @@ Particles readVdbParticles(const std::string& path)
 
 void writeVdbParticles(const Particles& particles, const std::string& path)
 {
+    initializeOpenVdb();
     const double voxelSize = pointsVoxelSize(particles);
     const std::vector<Slot> slots = sortedSlots(particles, voxelSize);
     const auto descriptor = describeAttributes(particles);

@@ -12,10 +12,12 @@ struct TypeName {
     PlyType type;
 };
 constexpr TypeName kTypeNames[] = {
-    {"char", PlyType::Int8},     {"int8", PlyType::Int8},     {"uchar", PlyType::UInt8},    {"uint8", PlyType::UInt8},
-    {"short", PlyType::Int16},   {"int16", PlyType::Int16},   {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},
-    {"int", PlyType::Int32},     {"int32", PlyType::Int32},   {"uint", PlyType::UInt32},    {"uint32", PlyType::UInt32},
-    {"float", PlyType::Float32}, {"float32", PlyType::Float32}, {"double", PlyType::Float64}, {"float64", PlyType::Float64}};
+    {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
+    {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
+    {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
+    {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+    {"float64", PlyType::Float64}};
 
 std::size_t sizeOf(PlyType type)
 {
@@ -52,7 +54,8 @@ PlyType requireType(const TextCursor& text, std::string_view name)
     for (const TypeName& known : kTypeNames) {
         if (name == known.name) return known.type;
     }
-    text.fail("'" + std::string(name.substr(0, 40)) + "' is no PLY type", "use char, uchar, short, ushort, int, uint, float or double");
+    text.fail("'" + std::string(name.substr(0, 40)) + "' is no PLY type",
+              "use char, uchar, short, ushort, int, uint, float or double");
 }
 
 } // namespace
@@ -108,7 +111,8 @@ void PlyReader::readFormat()
     } else if (name == "binary_big_endian") {
         format_ = Format::BinaryBig;
     } else {
-        text_.fail("'" + std::string(name.substr(0, 40)) + "' is no PLY format", "use ascii, binary_little_endian or binary_big_endian");
+        text_.fail("'" + std::string(name.substr(0, 40)) + "' is no PLY format",
+                   "use ascii, binary_little_endian or binary_big_endian");
     }
 }
 
@@ -117,7 +121,8 @@ void PlyReader::readElementLine()
     PlyElement element;
     element.name = std::string(text_.tokenOnLine());
     const auto count = parseInteger(text_.tokenOnLine());
-    if (element.name.empty() || !count || *count < 0) text_.fail("an element without name or count", "write 'element NAME COUNT'");
+    if (element.name.empty() || !count || *count < 0)
+        text_.fail("an element without name or count", "write 'element NAME COUNT'");
     element.count = static_cast<std::uint64_t>(*count);
     elements_.push_back(std::move(element));
 }
@@ -164,9 +169,11 @@ double PlyReader::readNumber(PlyType type)
     if (format_ == Format::Text) return text_.requireNumber("a value");
     const std::size_t bytes = sizeOf(type);
     if (binary_.size() < bytes) {
-        throw InputError(place(), "the file ends before this row does", "the file is cut short or its counts are too large; export it again");
+        throw InputError(place(), "the file ends before this row does",
+                         "the file is cut short or its counts are too large; export it again");
     }
-    const double value = loadAs(type, binary_.data(), format_ == Format::BinaryBig ? ByteOrder::Big : ByteOrder::Little);
+    const double value =
+        loadAs(type, binary_.data(), format_ == Format::BinaryBig ? ByteOrder::Big : ByteOrder::Little);
     binary_.remove_prefix(bytes);
     return value;
 }
@@ -176,7 +183,8 @@ void PlyReader::readList(const PlyProperty& property, std::vector<double>& entri
     const double count = readNumber(*property.listCount);
     const std::size_t left = format_ == Format::Text ? text_.rest().size() + 1 : binary_.size();
     if (!(count >= 0.0) || count > static_cast<double>(left)) {
-        throw InputError(place(), "a list of " + numberText(count) + " entries does not fit the file", "export the file again");
+        throw InputError(place(), "a list of " + numberText(count) + " entries does not fit the file",
+                         "export the file again");
     }
     entries.clear();
     for (double i = 0; i < count; ++i) entries.push_back(readNumber(property.type));

@@ -24,7 +24,8 @@ double signedArea(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& n
     return (b - a).cross(c - a).dot(normal);
 }
 
-bool isEar(const std::vector<Vec3d>& points, const std::vector<std::uint32_t>& ring, std::size_t at, const Vec3d& normal)
+bool isEar(const std::vector<Vec3d>& points, const std::vector<std::uint32_t>& ring, std::size_t at,
+           const Vec3d& normal)
 {
     const std::size_t count = ring.size();
     const std::uint32_t before = ring[(at + count - 1) % count];

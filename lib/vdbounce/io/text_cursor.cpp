@@ -15,7 +15,8 @@ constexpr std::size_t kQuotedCharacters = 40;
 std::string quoted(std::string_view token)
 {
     std::string text = "'";
-    for (char c : token.substr(0, kQuotedCharacters)) text += (std::isprint(static_cast<unsigned char>(c)) != 0) ? c : '?';
+    for (char c : token.substr(0, kQuotedCharacters))
+        text += (std::isprint(static_cast<unsigned char>(c)) != 0) ? c : '?';
     return text + (token.size() > kQuotedCharacters ? "...'" : "'");
 }
 
@@ -104,7 +105,8 @@ double TextCursor::requireNumber(const char* what)
 {
     const std::string_view token = requireToken(what);
     const auto value = parseDouble(token);
-    if (!value) fail(quoted(token) + " is not a number where " + what + " is expected", "correct the file or export it again");
+    if (!value)
+        fail(quoted(token) + " is not a number where " + what + " is expected", "correct the file or export it again");
     return *value;
 }
 
@@ -113,7 +115,8 @@ std::int64_t TextCursor::requireInteger(const char* what)
     const std::string_view token = requireToken(what);
     const auto value = parseInteger(token);
     if (!value) {
-        fail(quoted(token) + " is not a whole number where " + what + " is expected", "correct the file or export it again");
+        fail(quoted(token) + " is not a whole number where " + what + " is expected",
+             "correct the file or export it again");
     }
     return *value;
 }
