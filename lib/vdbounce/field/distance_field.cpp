@@ -33,8 +33,8 @@ DistanceField::Neighbourhood DistanceField::neighbourhood(const Cell& cell, floa
     if (entry.isBlock()) {
         constexpr int kMask = LeafBlocks::kLeafSide - 1;
         const float* block = blocks_.block(entry.block());
-        return {block + (cell.voxel.x() & kMask) * LeafBlocks::kStrideX + (cell.voxel.y() & kMask) * LeafBlocks::kStrideY +
-                    (cell.voxel.z() & kMask),
+        return {block + (cell.voxel.x() & kMask) * LeafBlocks::kStrideX +
+                    (cell.voxel.y() & kMask) * LeafBlocks::kStrideY + (cell.voxel.z() & kMask),
                 LeafBlocks::kStrideX, LeafBlocks::kStrideY};
     }
     if (entry.isFar()) {
@@ -153,7 +153,8 @@ Box DistanceField::worldBox() const
     Box box;
     if (empty()) return box;
     for (int corner = 0; corner < 8; ++corner) {
-        const Vec3d index((corner & 1) != 0 ? indexBox_.max.x() : indexBox_.min.x(), (corner & 2) != 0 ? indexBox_.max.y() : indexBox_.min.y(),
+        const Vec3d index((corner & 1) != 0 ? indexBox_.max.x() : indexBox_.min.x(),
+                          (corner & 2) != 0 ? indexBox_.max.y() : indexBox_.min.y(),
                           (corner & 4) != 0 ? indexBox_.max.z() : indexBox_.min.z());
         box.add(transform_.toWorld(index));
     }

@@ -11,18 +11,19 @@
 
 namespace vdbounce {
 
-/// A level set made ready for lookup: signed distance, its gradient and bounds on it, anywhere in space. Read-only after
-/// construction and safe to use from any number of threads.
+/// A level set made ready for lookup: signed distance, its gradient and bounds on it, anywhere in space. Read-only
+/// after construction and safe to use from any number of threads.
 ///
 /// phi is in world units, negative inside. All points are in world space.
 ///
 /// | where | phi | gradient |
 /// |---|---|---|
-/// | in the grid's box | trilinear of the 8 voxels around the point | central differences at those 8, interpolated the same way, carried to world space by the inverse transpose |
-/// | outside | sign(B) sqrt(A^2 + B^2), with A the distance to the closest point of the box and B = phi there | the derivative of that |
+/// | in the grid's box | trilinear of the 8 voxels around the point | central differences at those 8, interpolated the
+/// same way, carried to world space by the inverse transpose | | outside | sign(B) sqrt(A^2 + B^2), with A the distance
+/// to the closest point of the box and B = phi there | the derivative of that |
 ///
-/// The box is that of the active voxels' centres. Between the narrow band and the box phi is the background with the sign of
-/// the side, a lower bound on the distance, and the gradient is zero. Method: lecture, slides 26, 28 and 29.
+/// The box is that of the active voxels' centres. Between the narrow band and the box phi is the background with the
+/// sign of the side, a lower bound on the distance, and the gradient is zero. Method: lecture, slides 26, 28 and 29.
 ///
 ///     LevelSetGrid grid = readLevelSet("bunny.vdb");
 ///     DistanceField field(grid);
@@ -37,16 +38,17 @@ public:
     double phi(const Vec3d& world) const;
     FieldSample sample(const Vec3d& world) const;
 
-    /// lower <= true distance <= upper, provided that the grid's voxels hold true distances and that the surface lies in
-    /// the grid's box. In the band within a voxel's diagonal of the truth; between band and box the upper bound
-    /// is the box's diagonal; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the closest point for B.
+    /// lower <= true distance <= upper, provided that the grid's voxels hold true distances and that the surface lies
+    /// in the grid's box. In the band within a voxel's diagonal of the truth; between band and box the upper bound is
+    /// the box's diagonal; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the closest point for B.
     Interval bounds(const Vec3d& world) const;
 
     /// No two points in the box differ in phi by more than this times their distance. At least 1.
     double lipschitz() const { return lipschitz_; }
 
-    /// A distance that can be travelled from `world` in any direction, times lipschitz(), without phi becoming less than
-    /// 0, given that phi there is `phi`: phi itself, but for a surface that its box cuts off, where phi outside jumps.
+    /// A distance that can be travelled from `world` in any direction, times lipschitz(), without phi becoming less
+    /// than 0, given that phi there is `phi`: phi itself, but for a surface that its box cuts off, where phi outside
+    /// jumps.
     double freeDistance(const Vec3d& world, double phi) const;
 
     const LinearTransform& transform() const { return transform_; }
@@ -80,7 +82,8 @@ private:
     FieldSample sampleOutside(const Vec3d& index) const;
     Interval boundsInBox(const Vec3d& index) const;
 
-    // The 4^3 values around a cell: in place where a block holds them, else copied to `copy`; null where all are one value.
+    // The 4^3 values around a cell: in place where a block holds them, else copied to `copy`; null where all are one
+    // value.
     struct Neighbourhood {
         const float* values;
         int strideX;

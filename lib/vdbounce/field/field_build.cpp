@@ -86,7 +86,8 @@ double steepestCell(const float* block, const LinearTransform& transform)
                 const Vec3d change(largest(kX, kY, 1), largest(kY, kX, 1), largest(1, kX, kY));
                 // Convex in the gradient, so its maximum over |g_i| <= change_i is at a corner of that box.
                 for (int signs = 0; signs < 4; ++signs) {
-                    const Vec3d g(change.x(), (signs & 1) != 0 ? -change.y() : change.y(), (signs & 2) != 0 ? -change.z() : change.z());
+                    const Vec3d g(change.x(), (signs & 1) != 0 ? -change.y() : change.y(),
+                                  (signs & 2) != 0 ? -change.z() : change.z());
                     steepest = std::max(steepest, transform.gradientToWorld(g).squaredNorm());
                 }
             }

@@ -50,8 +50,7 @@ Vec3d closestPointInBox(const Box& box, const Vec3d& index, const LinearTransfor
     double bestDistance = (clamped - index).dot(metric * (clamped - index));
     for (int feature = 0; feature < 26; ++feature) { // the 27th, all coordinates free, is the inside
         const Side sides[3] = {kSides[feature % 3], kSides[feature / 3 % 3], kSides[feature / 9]};
-        const Vec3d candidate =
-            closestOnFeature(box, index, metric, sides).cwiseMax(box.min).cwiseMin(box.max);
+        const Vec3d candidate = closestOnFeature(box, index, metric, sides).cwiseMax(box.min).cwiseMin(box.max);
         const double distance = (candidate - index).dot(metric * (candidate - index));
         if (distance < bestDistance) {
             best = candidate;

@@ -158,7 +158,8 @@ void LeafBlocks::link()
     values_.resize(origins_.size() * kBlockSize);
 }
 
-// A node filled by one tile, beside a node that holds something else along their border, needs entries of its own to mark.
+// A node filled by one tile, beside a node that holds something else along their border, needs entries of its own to
+// mark.
 void LeafBlocks::touchNodesThatMeetOthers()
 {
     std::vector<Vec3i> work;

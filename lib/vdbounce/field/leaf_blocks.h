@@ -12,19 +12,20 @@ namespace vdbounce {
 
 /// The voxel values of a sparse grid, laid out for lookup rather than for editing.
 ///
-/// Every 8^3 leaf of the grid becomes a block of 11 x 11 x 12 floats: its own voxels and a halo of one voxel below and two
-/// above, so that the 4^3 values around any cell of the leaf lie in one block, in rows along z that start together.
+/// Every 8^3 leaf of the grid becomes a block of 11 x 11 x 12 floats: its own voxels and a halo of one voxel below and
+/// two above, so that the 4^3 values around any cell of the leaf lie in one block, in rows along z that start together.
 /// The rest of space has one value for each 8^3 cell of leaves ("tile"). A directory of two levels finds the block or
 /// tile of a voxel: nodes of 16^3 leaves, and an index over the nodes.
 ///
-/// Memory: 5,808 bytes a leaf (2.8 times its voxels) and 16 KiB for each node of 128^3 voxels that has leaves in or next to it.
+/// Memory: 5,808 bytes a leaf (2.8 times its voxels) and 16 KiB for each node of 128^3 voxels that has leaves in or
+/// next to it.
 class LeafBlocks {
 public:
     static constexpr int kLeafBits = 3;
     static constexpr int kLeafSide = 1 << kLeafBits;
     static constexpr int kHaloBelow = 1;
-    static constexpr int kBlockRows = 11;   // kHaloBelow + kLeafSide + 2
-    static constexpr int kBlockRow = 12;    // 11 values along z and one for alignment
+    static constexpr int kBlockRows = 11; // kHaloBelow + kLeafSide + 2
+    static constexpr int kBlockRow = 12;  // 11 values along z and one for alignment
     static constexpr int kBlockSize = kBlockRows * kBlockRows * kBlockRow;
     static constexpr int kStrideY = kBlockRow;
     static constexpr int kStrideX = kBlockRow * kBlockRows;
@@ -98,8 +99,8 @@ private:
     std::vector<std::size_t> entriesNextToOthers(const Vec3i& place) const;
     void indexNodesDensely();
 
-    // A node's number, or the code of the one tile that fills it. In a dense array over the nodes' box where that is small,
-    // which it is but for grids of scattered pieces.
+    // A node's number, or the code of the one tile that fills it. In a dense array over the nodes' box where that is
+    // small, which it is but for grids of scattered pieces.
     std::vector<std::int32_t> denseNodes_;
     Vec3i denseMin_ = Vec3i::Zero();
     Vec3i denseSize_ = Vec3i::Zero();

@@ -24,7 +24,8 @@ bool axesPerpendicular(const Mat3d& m)
 
 LinearTransform::LinearTransform(const Mat3d& indexToWorld, const Vec3d& origin)
     : indexToWorld_(indexToWorld), worldToIndex_(indexToWorld.inverse()), gradientToWorld_(worldToIndex_.transpose()),
-      origin_(origin), voxelSize_(indexToWorld.colwise().norm().transpose()), orthogonal_(axesPerpendicular(indexToWorld))
+      origin_(origin), voxelSize_(indexToWorld.colwise().norm().transpose()),
+      orthogonal_(axesPerpendicular(indexToWorld))
 {
 }
 

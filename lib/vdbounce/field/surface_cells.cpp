@@ -21,7 +21,8 @@ std::vector<Vec3i> cellsAroundLevel(const DistanceField& field, double level)
     const LeafBlocks& blocks = field.blocks();
     std::vector<Vec3i> cells;
     for (std::size_t b = 0; b < blocks.blockCount(); ++b) {
-        const float* values = blocks.block(b) + (LeafBlocks::kStrideX + LeafBlocks::kStrideY + 1) * LeafBlocks::kHaloBelow;
+        const float* values =
+            blocks.block(b) + (LeafBlocks::kStrideX + LeafBlocks::kStrideY + 1) * LeafBlocks::kHaloBelow;
         for (int x = 0; x < LeafBlocks::kLeafSide; ++x) {
             for (int y = 0; y < LeafBlocks::kLeafSide; ++y) {
                 for (int z = 0; z < LeafBlocks::kLeafSide; ++z) {
