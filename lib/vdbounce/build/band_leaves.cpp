@@ -37,7 +37,8 @@ struct Triangle {
     Vec3d a, b, c;
     Vec3d normal; // unit; zero for a sliver, whose plane is too uncertain to exclude anything
 
-    Triangle(const TriangleMesh& mesh, std::uint32_t t) : a(mesh.corner(t, 0)), b(mesh.corner(t, 1)), c(mesh.corner(t, 2))
+    Triangle(const TriangleMesh& mesh, std::uint32_t t)
+        : a(mesh.corner(t, 0)), b(mesh.corner(t, 1)), c(mesh.corner(t, 2))
     {
         normal = (b - a).cross(c - a);
         const double length = normal.norm();
@@ -64,7 +65,8 @@ void appendReachedLeaves(const TriangleMesh& mesh, std::uint32_t t, double voxel
         for (int y = from.y(); y <= to.y(); ++y) {
             for (int z = from.z(); z <= to.z(); ++z) {
                 const Vec3d centre = Vec3d(x, y, z) * leafSize + Vec3d::Constant(halfSpan);
-                if (triangle.planeDistance(centre) > reach || triangle.distanceSquared(centre) > reach * reach) continue;
+                if (triangle.planeDistance(centre) > reach || triangle.distanceSquared(centre) > reach * reach)
+                    continue;
                 pairs.push_back({x, y, z, t});
             }
         }
@@ -111,7 +113,8 @@ bool measureLeaf(const TriangleMesh& mesh, const LeafTriangle* list, std::size_t
             }
         }
     }
-    for (std::size_t offset = 0; offset < nearest2.size(); ++offset) leaf.distance[offset] = float(std::sqrt(nearest2[offset]));
+    for (std::size_t offset = 0; offset < nearest2.size(); ++offset)
+        leaf.distance[offset] = float(std::sqrt(nearest2[offset]));
     return reached;
 }
 
@@ -120,7 +123,8 @@ void requireIndexable(const TriangleMesh& mesh, double voxelSize, double band)
     const Box box = boundingBox(mesh);
     const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + band;
     if (farthest / (voxelSize * BandLeaf::kSide) >= kLargestLeaf) {
-        throw UsageError("voxel size " + std::to_string(voxelSize), "is too small for a mesh that reaches " + std::to_string(farthest) + " from the origin",
+        throw UsageError("voxel size " + std::to_string(voxelSize),
+                         "is too small for a mesh that reaches " + std::to_string(farthest) + " from the origin",
                          "use larger voxels or move the mesh to the origin");
     }
 }
@@ -144,7 +148,9 @@ std::vector<BandLeaf> measureBandLeaves(const TriangleMesh& mesh, double voxelSi
     forEachBlock(count, kLeavesPerTask, [&](std::size_t, IndexRange range) {
         throwIfStopped(progress);
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            reached[i] = measureLeaf(mesh, pairs.data() + begins[i], begins[i + 1] - begins[i], voxelSize, band, leaves[i]) ? 1 : 0;
+            reached[i] =
+                measureLeaf(mesh, pairs.data() + begins[i], begins[i + 1] - begins[i], voxelSize, band, leaves[i]) ? 1
+                                                                                                                   : 0;
         }
     });
     std::size_t kept = 0;

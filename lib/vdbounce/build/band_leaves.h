@@ -21,8 +21,8 @@ struct BandLeaf {
     Vec3i voxel(int offset) const { return leaf * kSide + Vec3i(offset >> 6, offset >> 3 & 7, offset & 7); }
 };
 
-/// All leaves with a voxel closer to the mesh than `band` (world units), in lexicographic order, with exact distances. Voxel
-/// centres lie at multiples of `voxelSize`.
+/// All leaves with a voxel closer to the mesh than `band` (world units), in lexicographic order, with exact distances.
+/// Voxel centres lie at multiples of `voxelSize`.
 ///
 /// Method: triangles are counted into the leaves that their band reaches; then each leaf takes the minimum over
 /// its own list, so that no leaf needs another and any number of threads gives the same bits.

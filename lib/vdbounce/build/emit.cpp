@@ -13,9 +13,9 @@ namespace vdbounce {
 namespace {
 
 constexpr std::size_t kParticlesPerTask = 8192;
-constexpr int kProjectionSteps = 8;     // Newton halves nothing worse than a voxel to rounding within five
-constexpr int kScatterAttempts = 64;    // cells whose level set a point does not reach are few
-constexpr double kOnSurfaceVx = 1e-3;   // how close to the level set an emitted point ends, voxels
+constexpr int kProjectionSteps = 8;   // Newton halves nothing worse than a voxel to rounding within five
+constexpr int kScatterAttempts = 64;  // cells whose level set a point does not reach are few
+constexpr double kOnSurfaceVx = 1e-3; // how close to the level set an emitted point ends, voxels
 
 void requireThat(bool good, const char* name, double value, const char* remedy)
 {
@@ -24,8 +24,12 @@ void requireThat(bool good, const char* name, double value, const char* remedy)
 
 template <class PositionOf> Particles emit(const EmitOptions& options, const PositionOf& positionOf)
 {
-    if (options.radius) requireThat(*options.radius >= 0.0 && std::isfinite(*options.radius), "--radius", *options.radius, "give a length, 0 or more");
-    if (options.mass) requireThat(*options.mass > 0.0 && std::isfinite(*options.mass), "--mass", *options.mass, "give a positive mass");
+    if (options.radius)
+        requireThat(*options.radius >= 0.0 && std::isfinite(*options.radius), "--radius", *options.radius,
+                    "give a length, 0 or more");
+    if (options.mass)
+        requireThat(*options.mass > 0.0 && std::isfinite(*options.mass), "--mass", *options.mass,
+                    "give a positive mass");
     Particles particles;
     particles.resize(options.count);
     if (options.velocity) particles.velocity.assign(options.count, *options.velocity);
@@ -55,9 +59,12 @@ bool projectOntoSurface(const DistanceField& field, double offset, Vec3d& p)
 Particles emitInBox(const Box& box, const EmitOptions& options)
 {
     if (box.empty() || !box.min.allFinite() || !box.max.allFinite()) {
-        throw UsageError("emit box", "--min is not below --max", "give the lower corner as --min and the upper as --max");
+        throw UsageError("emit box", "--min is not below --max",
+                         "give the lower corner as --min and the upper as --max");
     }
-    return emit(options, [&](CounterRandom& random) { return Vec3d(box.min + box.size().cwiseProduct(random.uniformVector())); });
+    return emit(options, [&](CounterRandom& random) {
+        return Vec3d(box.min + box.size().cwiseProduct(random.uniformVector()));
+    });
 }
 
 Particles emitInSphere(const Vec3d& centre, double radius, const EmitOptions& options)

@@ -25,9 +25,9 @@ Particles emitInBox(const Box& box, const EmitOptions& options);
 /// Uniformly distributed in the ball.
 Particles emitInSphere(const Vec3d& centre, double radius, const EmitOptions& options);
 
-/// On the level set phi = `offset` (world units), uniformly by area to first order: points scattered in the cells that the
-/// level set crosses are moved onto it along the gradient. Throws InputError where the field has no such cells, that is
-/// for an empty grid or an offset beyond its band.
+/// On the level set phi = `offset` (world units), uniformly by area to first order: points scattered in the cells that
+/// the level set crosses are moved onto it along the gradient. Throws InputError where the field has no such cells,
+/// that is for an empty grid or an offset beyond its band.
 Particles emitOnSurface(const DistanceField& field, double offset, const EmitOptions& options);
 
 } // namespace vdbounce

@@ -31,10 +31,14 @@ void validate(const MeshToLevelSetOptions& options)
     const auto require = [](bool good, const char* name, double value, const char* remedy) {
         if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
     };
-    require(options.voxelSize > 0.0 && std::isfinite(options.voxelSize), "voxel size", options.voxelSize, "give a positive length");
-    require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx, "give at least 1 voxel");
-    require(options.interiorVx >= 1.0 && options.interiorVx < 1e6, "interior band", options.interiorVx, "give at least 1 voxel");
-    require(options.thicknessVx > 0.0 && options.thicknessVx < 1e6, "thickness", options.thicknessVx, "give a positive number of voxels");
+    require(options.voxelSize > 0.0 && std::isfinite(options.voxelSize), "voxel size", options.voxelSize,
+            "give a positive length");
+    require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx,
+            "give at least 1 voxel");
+    require(options.interiorVx >= 1.0 && options.interiorVx < 1e6, "interior band", options.interiorVx,
+            "give at least 1 voxel");
+    require(options.thicknessVx > 0.0 && options.thicknessVx < 1e6, "thickness", options.thicknessVx,
+            "give a positive number of voxels");
 }
 
 bool insideAt(const MeshTree& tree, SignMethod sign, const Vec3d& point)
@@ -59,13 +63,15 @@ Inside insideByRegions(const std::vector<BandLeaf>& leaves, const MeshTree& tree
     });
     Inside inside(leaves.size());
     for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
-        for (int v = 0; v < BandLeaf::kVoxels; ++v) inside[leaf][std::size_t(v)] = regionInside[space.regionOf(leaf, v)] != 0;
+        for (int v = 0; v < BandLeaf::kVoxels; ++v)
+            inside[leaf][std::size_t(v)] = regionInside[space.regionOf(leaf, v)] != 0;
     }
     return inside;
 }
 
 // Through a hole inside and outside are one region, so every voxel is asked for itself.
-Inside insideByVoxels(const std::vector<BandLeaf>& leaves, const MeshTree& tree, SignMethod sign, double voxelSize, Progress& progress)
+Inside insideByVoxels(const std::vector<BandLeaf>& leaves, const MeshTree& tree, SignMethod sign, double voxelSize,
+                      Progress& progress)
 {
     Inside inside(leaves.size());
     forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t leaf) {
@@ -83,7 +89,8 @@ struct Band {
 };
 
 // Writes signed distances into a grid: active within the band, the band's width with the sign beyond it.
-openvdb::FloatGrid::Ptr assemble(const std::vector<BandLeaf>& leaves, const Band& band, const MeshToLevelSetOptions& options,
+openvdb::FloatGrid::Ptr assemble(const std::vector<BandLeaf>& leaves, const Band& band,
+                                 const MeshToLevelSetOptions& options,
                                  const std::function<float(std::size_t, int)>& signedDistance)
 {
     auto grid = openvdb::FloatGrid::create(band.exterior);
@@ -113,13 +120,16 @@ std::vector<std::string> warnAboutEdges(const EdgeReport& edges, SignMethod sign
 {
     std::vector<std::string> warnings;
     if (edges.open > 0) {
-        warnings.push_back("the mesh is open (" + std::to_string(edges.open) + " edges with one triangle): the sign across its holes is the " +
-                           signMethodName(sign) + " method's guess, and phi jumps there; close the mesh, or use --sign unsigned for a sheet");
+        warnings.push_back("the mesh is open (" + std::to_string(edges.open) +
+                           " edges with one triangle): the sign across its holes is the " + signMethodName(sign) +
+                           " method's guess, and phi jumps there; close the mesh, or use --sign unsigned for a sheet");
     }
     if (edges.inconsistent > 0) {
-        warnings.push_back(std::to_string(edges.inconsistent) + " edges join triangles that face opposite ways; orient the mesh or try --sign parity");
+        warnings.push_back(std::to_string(edges.inconsistent) +
+                           " edges join triangles that face opposite ways; orient the mesh or try --sign parity");
     }
-    if (edges.nonManifold > 0) warnings.push_back(std::to_string(edges.nonManifold) + " edges have three triangles or more");
+    if (edges.nonManifold > 0)
+        warnings.push_back(std::to_string(edges.nonManifold) + " edges have three triangles or more");
     return warnings;
 }
 
@@ -127,7 +137,8 @@ openvdb::FloatGrid::Ptr makeSheet(const TriangleMesh& mesh, const MeshToLevelSet
 {
     const double half = 0.5 * options.thicknessVx * options.voxelSize;
     const Band band{float(options.exteriorVx * options.voxelSize), float(half)};
-    const auto leaves = measureBandLeaves(mesh, options.voxelSize, options.exteriorVx * options.voxelSize + half, progress);
+    const auto leaves =
+        measureBandLeaves(mesh, options.voxelSize, options.exteriorVx * options.voxelSize + half, progress);
     return assemble(leaves, band, options, [&](std::size_t leaf, int v) {
         // A voxel centre on the mesh itself is inside by the whole half thickness, and must count as inside the band.
         return std::max(leaves[leaf].distance[std::size_t(v)] - float(half), std::nextafter(-float(half), 0.0f));

@@ -21,11 +21,12 @@ enum class SignMethod {
 };
 
 struct MeshToLevelSetOptions {
-    double voxelSize = 0.0;    ///< world units, > 0
-    double exteriorVx = 3.0;   ///< half width of the band outside, voxels, >= 1; becomes the background
-    double interiorVx = 3.0;   ///< half width of the band inside, voxels, >= 1
+    double voxelSize = 0.0;  ///< world units, > 0
+    double exteriorVx = 3.0; ///< half width of the band outside, voxels, >= 1; becomes the background
+    double interiorVx = 3.0; ///< half width of the band inside, voxels, >= 1
     SignMethod sign = SignMethod::Auto;
-    double thicknessVx = 2.0;  ///< of a sheet (SignMethod::Unsigned), voxels, > 0; two can be told from nothing by trilinear lookup
+    double thicknessVx =
+        2.0; ///< of a sheet (SignMethod::Unsigned), voxels, > 0; two can be told from nothing by trilinear lookup
     std::string gridName = "surface";
 };
 
@@ -37,10 +38,10 @@ struct MeshToLevelSetResult {
 
 /// Makes a narrow-band level set from a triangle mesh.
 ///
-/// Guarantee: every active voxel holds the distance to the mesh that a double-precision closest point gives, rounded to float;
-/// nothing is renormalised afterwards. Signs are the chosen method's, found once for each connected region of space between the
-/// triangles where the mesh is closed, and voxel by voxel where it is open. The grid's transform is a uniform
-/// scale, voxel centres lie at multiples of the voxel size. The same bits for any number of threads.
+/// Guarantee: every active voxel holds the distance to the mesh that a double-precision closest point gives, rounded to
+/// float; nothing is renormalised afterwards. Signs are the chosen method's, found once for each connected region of
+/// space between the triangles where the mesh is closed, and voxel by voxel where it is open. The grid's transform is a
+/// uniform scale, voxel centres lie at multiples of the voxel size. The same bits for any number of threads.
 ///
 /// Throws UsageError for options out of range, InputError for a mesh too large for the voxel size, Interrupted.
 /// Cost: about (triangles that reach a leaf) x 512 distances for each leaf of the band.

@@ -18,8 +18,9 @@ constexpr double kWindingAccuracy = 2.0;       // Barill et al.: a node this man
 constexpr std::size_t kStackDepth = 128;       // halving 2^32 triangles takes 32 levels, two entries each
 
 // No axis, diagonal or face direction of a modelled mesh is likely to be parallel to these.
-const Vec3d kRayDirections[5] = {Vec3d(0.8147, 0.3213, 0.4826), Vec3d(-0.5377, 0.7283, 0.4247), Vec3d(0.2189, -0.6571, 0.7213),
-                                 Vec3d(-0.4161, -0.5793, -0.7009), Vec3d(0.6837, 0.5119, -0.5203)};
+const Vec3d kRayDirections[5] = {Vec3d(0.8147, 0.3213, 0.4826), Vec3d(-0.5377, 0.7283, 0.4247),
+                                 Vec3d(0.2189, -0.6571, 0.7213), Vec3d(-0.4161, -0.5793, -0.7009),
+                                 Vec3d(0.6837, 0.5119, -0.5203)};
 
 // True when the ray from `origin` crosses the triangle. Method: Moeller and Trumbore 1997.
 bool rayCrosses(const Vec3d& origin, const Vec3d& direction, const Vec3d& a, const Vec3d& b, const Vec3d& c)
@@ -78,9 +79,10 @@ std::uint32_t MeshTree::build(std::uint32_t begin, std::uint32_t end, const std:
     int axis = 0;
     centres.size().maxCoeff(&axis);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-        return centroids[a][axis] != centroids[b][axis] ? centroids[a][axis] < centroids[b][axis] : a < b;
-    });
+    std::nth_element(
+        order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
+            return centroids[a][axis] != centroids[b][axis] ? centroids[a][axis] < centroids[b][axis] : a < b;
+        });
     build(begin, middle, centroids);
     const std::uint32_t second = build(middle, end, centroids);
     nodes_[number].first = second;

@@ -9,9 +9,9 @@
 
 namespace vdbounce {
 
-/// A bounding volume hierarchy over a mesh's triangles that answers what is exact to ask of a mesh, in double precision:
-/// distance, winding number, crossings. Read-only after construction, safe to use from any number of threads.
-/// The mesh must outlive it. Cost: O(n log n) to build, 112 bytes a node and half a node a triangle.
+/// A bounding volume hierarchy over a mesh's triangles that answers what is exact to ask of a mesh, in double
+/// precision: distance, winding number, crossings. Read-only after construction, safe to use from any number of
+/// threads. The mesh must outlive it. Cost: O(n log n) to build, 112 bytes a node and half a node a triangle.
 class MeshTree {
 public:
     explicit MeshTree(const TriangleMesh& mesh);
@@ -24,8 +24,9 @@ public:
     /// The closest point of the mesh, exact.
     Closest closest(const Vec3d& p) const;
 
-    /// How often the mesh winds around p: 1 inside, 0 outside of a closed outward-facing mesh, and in between near holes.
-    /// Far groups of triangles count as a dipole; the error is below 0.01 (Barill et al. 2018, accuracy 2, first order).
+    /// How often the mesh winds around p: 1 inside, 0 outside of a closed outward-facing mesh, and in between near
+    /// holes. Far groups of triangles count as a dipole; the error is below 0.01 (Barill et al. 2018, accuracy 2, first
+    /// order).
     double windingNumber(const Vec3d& p) const;
 
     /// True when p is inside by the parity of crossings, the majority of several rays in fixed oblique directions.
@@ -36,8 +37,9 @@ private:
         Box box;
         Vec3d centroid = Vec3d::Zero(); // weighted by area
         Vec3d areaNormal = Vec3d::Zero();
-        double radius = 0.0;     // of a ball around the centroid that holds the node's triangles
-        std::uint32_t first = 0; // a leaf's first triangle in order_, or the inner node's second child; the first follows it
+        double radius = 0.0; // of a ball around the centroid that holds the node's triangles
+        std::uint32_t first =
+            0; // a leaf's first triangle in order_, or the inner node's second child; the first follows it
         std::uint32_t count = 0; // triangles of a leaf; 0 for an inner node
     };
 

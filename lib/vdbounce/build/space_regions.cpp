@@ -48,13 +48,15 @@ public:
         low_ -= Vec3i::Ones();
         size_ = high - low_ + Vec3i::Constant(2);
         leafAt_.assign(static_cast<std::size_t>(size_.x()) * std::size_t(size_.y()) * std::size_t(size_.z()), -1);
-        for (std::size_t i = 0; i < leaves.size(); ++i) leafAt_[cell(leaves[i].leaf - low_)] = static_cast<std::int32_t>(i);
+        for (std::size_t i = 0; i < leaves.size(); ++i)
+            leafAt_[cell(leaves[i].leaf - low_)] = static_cast<std::int32_t>(i);
     }
     std::size_t cells() const { return leafAt_.size(); }
     const Vec3i& size() const { return size_; }
     std::size_t cell(const Vec3i& at) const
     {
-        return (std::size_t(at.x()) * std::size_t(size_.y()) + std::size_t(at.y())) * std::size_t(size_.z()) + std::size_t(at.z());
+        return (std::size_t(at.x()) * std::size_t(size_.y()) + std::size_t(at.y())) * std::size_t(size_.z()) +
+               std::size_t(at.z());
     }
     std::int32_t leaf(const Vec3i& at) const { return leafAt_[cell(at)]; }
 
@@ -64,8 +66,8 @@ private:
     std::vector<std::int32_t> leafAt_;
 };
 
-// Joins what lies on the two sides of every face between neighbouring lattice cells. Elements of the sets are all voxels of all
-// leaves, then the lattice's cells.
+// Joins what lies on the two sides of every face between neighbouring lattice cells. Elements of the sets are all
+// voxels of all leaves, then the lattice's cells.
 class Joiner {
 public:
     Joiner(const std::vector<BandLeaf>& leaves, const LeafLattice& lattice, double voxelSize, DisjointSets& sets)
@@ -89,15 +91,22 @@ public:
         }
     }
 
-    std::uint32_t element(std::size_t leaf, int voxel) const { return static_cast<std::uint32_t>(leaf * BandLeaf::kVoxels) + std::uint32_t(voxel); }
-    std::uint32_t element(const Vec3i& at) const { return static_cast<std::uint32_t>(leaves_.size() * BandLeaf::kVoxels + lattice_.cell(at)); }
+    std::uint32_t element(std::size_t leaf, int voxel) const
+    {
+        return static_cast<std::uint32_t>(leaf * BandLeaf::kVoxels) + std::uint32_t(voxel);
+    }
+    std::uint32_t element(const Vec3i& at) const
+    {
+        return static_cast<std::uint32_t>(leaves_.size() * BandLeaf::kVoxels + lattice_.cell(at));
+    }
 
 private:
     static constexpr int kStride[3] = {64, 8, 1};
 
     void joinVoxels(std::size_t leafA, int a, std::size_t leafB, int b)
     {
-        if (leaves_[leafA].distance[std::size_t(a)] + leaves_[leafB].distance[std::size_t(b)] > way_) sets_.join(element(leafA, a), element(leafB, b));
+        if (leaves_[leafA].distance[std::size_t(a)] + leaves_[leafB].distance[std::size_t(b)] > way_)
+            sets_.join(element(leafA, a), element(leafB, b));
     }
 
     void joinWithin(std::size_t leaf)
@@ -142,7 +151,8 @@ private:
 
 } // namespace
 
-SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize) : label_(leaves.size() * BandLeaf::kVoxels)
+SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize)
+    : label_(leaves.size() * BandLeaf::kVoxels)
 {
     if (leaves.empty()) return;
     const LeafLattice lattice(leaves);

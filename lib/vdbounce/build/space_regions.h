@@ -15,20 +15,23 @@ namespace vdbounce {
 /// apart: voxels close to the mesh often are regions of their own.
 class SpaceRegions {
 public:
-    /// `leaves` in lexicographic order, as measureBandLeaves returns them. Memory: 2 KB a leaf, 4 bytes for each leaf of the
-    /// box around all.
+    /// `leaves` in lexicographic order, as measureBandLeaves returns them. Memory: 2 KB a leaf, 4 bytes for each leaf
+    /// of the box around all.
     SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize);
 
     struct Region {
         std::size_t deepestLeaf = 0; ///< where the region's voxel farthest from the mesh is
         int deepestVoxel = 0;
-        float depth = -1.0f;         ///< its distance, world units
-        bool outermost = false;      ///< holds the space far away from the mesh
+        float depth = -1.0f;    ///< its distance, world units
+        bool outermost = false; ///< holds the space far away from the mesh
     };
     const std::vector<Region>& regions() const { return regions_; }
 
     /// The region of a voxel, an index into regions().
-    std::uint32_t regionOf(std::size_t leaf, int voxel) const { return label_[leaf * BandLeaf::kVoxels + std::size_t(voxel)]; }
+    std::uint32_t regionOf(std::size_t leaf, int voxel) const
+    {
+        return label_[leaf * BandLeaf::kVoxels + std::size_t(voxel)];
+    }
 
 private:
     std::vector<Region> regions_;

@@ -48,7 +48,8 @@ struct Errors {
 
 } // namespace
 
-VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh, double offset, const VerifyOptions& options)
+VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh, double offset,
+                            const VerifyOptions& options)
 {
     const openvdb::FloatGrid& grid = toOpenVdb(handle);
     const MeshTree tree(mesh);
@@ -60,7 +61,8 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
         Errors part;
         for (std::size_t i = range.begin; i < range.end; ++i) {
             const double distance = tree.closest(samples[i].world).distance;
-            const double error = sheet ? std::abs(samples[i].phi - (distance - offset)) : std::abs(std::abs(samples[i].phi) - distance);
+            const double error =
+                sheet ? std::abs(samples[i].phi - (distance - offset)) : std::abs(std::abs(samples[i].phi) - distance);
             part.largest = std::max(part.largest, error);
             part.squares += error * error;
             if (sheet || distance < onSurface) continue;

@@ -15,13 +15,14 @@ struct VerifyOptions {
 /// How far a level set is from the mesh it was made of.
 struct VerifyReport {
     std::uint64_t samples = 0;
-    double maxErrorVx = 0.0;     ///< largest | |phi| - distance |, voxels
-    double rmsErrorVx = 0.0;     ///< root mean square of it, voxels
+    double maxErrorVx = 0.0;      ///< largest | |phi| - distance |, voxels
+    double rmsErrorVx = 0.0;      ///< root mean square of it, voxels
     std::uint64_t signErrors = 0; ///< voxels on the wrong side by winding number; only meaningful for closed meshes
 };
 
-/// Compares active voxels with the exact distance to the mesh (a search tree in double precision, independent of how the
-/// grid was made). `offset` is what was subtracted from the distance: half the thickness of a sheet, else 0.
-VerifyReport verifyLevelSet(const LevelSetGrid& grid, const TriangleMesh& mesh, double offset, const VerifyOptions& options = {});
+/// Compares active voxels with the exact distance to the mesh (a search tree in double precision, independent of how
+/// the grid was made). `offset` is what was subtracted from the distance: half the thickness of a sheet, else 0.
+VerifyReport verifyLevelSet(const LevelSetGrid& grid, const TriangleMesh& mesh, double offset,
+                            const VerifyOptions& options = {});
 
 } // namespace vdbounce
