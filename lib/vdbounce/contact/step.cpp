@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/contact/step.h"
+
+#include "vdbounce/contact/response.h"
+#include "vdbounce/contact/sweep.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <limits>
+
+namespace vdbounce {
+namespace {
+
+// Contact iterations a step. Curved surfaces take two or three, a wedge of two colliders ten; more is a pocket too
+// narrow.
+constexpr int kMaxContacts = 16;
+
+// What contact moves out beyond the surface, as a share of the depth: closes in from inside geometrically otherwise.
+constexpr double kPushMargin = 1e-3;
+
+// The least that a push moves a particle, in voxels: a thousandth of what trilinear interpolation can resolve.
+constexpr double kSmallestPushVx = 1e-6;
+
+// The share of its depth that a particle which began inside is moved out in one step.
+constexpr double kRecovery = 0.2;
+
+// The shortest step of a search along a path, voxels. Two voxels is the thinnest wall that a grid can hold.
+constexpr double kSweepStepVx = 0.25;
+
+// Positions are rounded each time that they are added to; the clearance gives up a few units in the last place for it.
+double roundingOf(const Vec3d& position)
+{
+    return 4.0 * std::numeric_limits<double>::epsilon() * position.cwiseAbs().maxCoeff();
+}
+
+struct Touch {
+    bool touching = false;
+    bool hasNormal = false;
+    std::size_t collider = 0;
+    Vec3d normal;
+    double depth = 0.0; // at the end of the path; 0 where only the way there touched
+};
+
+// One particle's step. Holds the state that its phases share.
+class CollideContact {
+public:
+    CollideContact(MovingParticle& particle, const ColliderSet& colliders, const StepOptions& options, StepTally& tally)
+        : particle_(particle), colliders_(colliders), options_(options), tally_(tally), start_(particle.position),
+          velocity_(particle.velocity)
+    {
+        makeCandidate();
+    }
+
+    void run()
+    {
+        const double way = (candidate_ - start_).norm();
+        if (way < particle_.clearance) {
+            ++tally_.free;
+            accept();
+            particle_.clearance -= way + roundingOf(candidate_);
+            return;
+        }
+        ++tally_.near;
+        if (particle_.inside) {
+            recover();
+        } else {
+            Touch touch = look();
+            if (touch.touching) {
+                ++tally_.contacts;
+                touch = bounce(touch);
+                touch = rest(touch);
+                if (touch.touching) hold(touch);
+            }
+        }
+        accept();
+        particle_.clearance = probe_.clearance;
+        particle_.inside = probe_.gap < 0.0;
+        if (particle_.inside) {
+            ++tally_.unresolved;
+            tally_.maxPenetration = std::max(tally_.maxPenetration, -probe_.gap);
+        }
+    }
+
+private:
+    void makeCandidate()
+    {
+        endVelocity_ = velocity_ + options_.dt * options_.gravity;
+        candidate_ = start_ + options_.dt * 0.5 * (velocity_ + endVelocity_);
+    }
+
+    void accept()
+    {
+        particle_.position = candidate_;
+        particle_.velocity = endVelocity_;
+    }
+
+    // Whether the candidate, or the way to it, touches a collider. Leaves the surroundings of the candidate in probe_.
+    Touch look()
+    {
+        probe_ = colliders_.probe(candidate_, particle_.radius);
+        Touch touch;
+        touch.depth = std::max(0.0, -probe_.gap);
+        if (mayHaveTouchedOnTheWay()) {
+            if (!swept_) ++tally_.swept;
+            swept_ = true;
+            const PathHit hit =
+                sweepPath(colliders_, start_, candidate_, particle_.radius, kSweepStepVx * shortLength());
+            touch.touching = hit.hit;
+            touch.collider = hit.collider;
+            if (hit.hit) touch.hasNormal = colliders_.normalAt(hit.collider, hit.position, touch.normal);
+            return touch;
+        }
+        touch.touching = probe_.gap < 0.0;
+        touch.collider = probe_.collider;
+        if (touch.touching) touch.hasNormal = colliders_.normalAt(probe_.collider, candidate_, touch.normal);
+        return touch;
+    }
+
+    bool mayHaveTouchedOnTheWay() const
+    {
+        if (options_.sweep == Sweep::Never) return false;
+        const double way = (candidate_ - start_).norm();
+        if (options_.sweep == Sweep::Auto && way <= colliders_.smallestVoxel()) return false;
+        return way > particle_.clearance + probe_.clearance;
+    }
+
+    // The length on which walls are told apart; planes alone have none, and any will do.
+    double shortLength() const
+    {
+        const double voxel = colliders_.smallestVoxel();
+        return voxel < std::numeric_limits<double>::infinity() ? voxel : 0.25 * (candidate_ - start_).norm();
+    }
+
+    // Step 2: elastic collisions of the velocity from the start of the step.
+    Touch bounce(Touch touch)
+    {
+        for (int i = 0; i < options_.maxBounces && touch.touching && touch.hasNormal; ++i) {
+            if (!(velocity_.dot(touch.normal) < 0.0)) break;
+            const Collider& collider = colliders_[touch.collider];
+            const Vec3d before = velocity_;
+            velocity_ = respond(velocity_, touch.normal, collider.restitution, collider.friction);
+            react(touch.collider, velocity_ - before);
+            makeCandidate();
+            touch = look();
+        }
+        return touch;
+    }
+
+    // Step 3: inelastic contact over the whole step.
+    Touch rest(Touch touch)
+    {
+        Vec3d average = (candidate_ - start_) / options_.dt;
+        for (int i = 0; i < kMaxContacts && touch.touching && touch.hasNormal; ++i) {
+            const double friction = colliders_[touch.collider].friction;
+            const bool approached = average.dot(touch.normal) < 0.0;
+            average = respond(average, touch.normal, 0.0, friction);
+            answerEndVelocity(touch.collider, touch.normal, friction);
+            // Nothing approaches any more and still it is inside: the surface curves. Only then is it moved out.
+            if (!approached || i > 0) {
+                const double push = std::max((1.0 + kPushMargin) * touch.depth, kSmallestPushVx * shortLength());
+                average += push / options_.dt * touch.normal;
+            }
+            candidate_ = start_ + options_.dt * average;
+            touch = look();
+        }
+        return touch;
+    }
+
+    void answerEndVelocity(std::size_t collider, const Vec3d& normal, double friction)
+    {
+        const Vec3d before = endVelocity_;
+        endVelocity_ = respond(endVelocity_, normal, 0.0, friction);
+        react(collider, endVelocity_ - before);
+    }
+
+    // Started outside and could not be brought out again: back to where it was, at rest.
+    void hold(const Touch& touch)
+    {
+        react(touch.collider, -endVelocity_);
+        endVelocity_ = Vec3d::Zero();
+        candidate_ = start_;
+        probe_ = colliders_.probe(candidate_, particle_.radius);
+        ++tally_.unresolved;
+    }
+
+    // Started inside: inelastic, and out by a share of the depth (lecture, slide 3: both ends penetrate).
+    void recover()
+    {
+        probe_ = colliders_.probe(candidate_, particle_.radius);
+        if (!(probe_.gap < 0.0)) return;
+        ++tally_.contacts;
+        const std::size_t collider = probe_.collider;
+        Vec3d normal;
+        if (!colliders_.normalAt(collider, candidate_, normal)) {
+            // Too deep for the band to tell the way out: it must not sink deeper.
+            react(collider, -endVelocity_);
+            endVelocity_ = Vec3d::Zero();
+            candidate_ = start_;
+        } else {
+            const double friction = colliders_[collider].friction;
+            const Vec3d average = respond((candidate_ - start_) / options_.dt, normal, 0.0, friction);
+            answerEndVelocity(collider, normal, friction);
+            candidate_ = start_ + options_.dt * average + kRecovery * -probe_.gap * normal;
+        }
+        probe_ = colliders_.probe(candidate_, particle_.radius);
+    }
+
+    // The particle's velocity changed by `change` through this collider, which takes the opposite impulse.
+    void react(std::size_t collider, const Vec3d& change)
+    {
+        const Vec3d impulse = -particle_.mass * change;
+        tally_.impulse[collider] += impulse;
+        tally_.angularImpulse[collider] += candidate_.cross(impulse);
+    }
+
+    MovingParticle& particle_;
+    const ColliderSet& colliders_;
+    const StepOptions& options_;
+    StepTally& tally_;
+    const Vec3d start_;
+    Vec3d velocity_; // at the start of the step, after the collisions so far
+    Vec3d endVelocity_;
+    Vec3d candidate_;
+    Probe probe_;
+    bool swept_ = false;
+};
+
+} // namespace
+
+StepTally::StepTally(std::size_t colliders)
+    : impulse(colliders, Vec3d::Zero()), angularImpulse(colliders, Vec3d::Zero())
+{
+}
+
+StepTally& StepTally::operator+=(const StepTally& other)
+{
+    free += other.free;
+    near += other.near;
+    contacts += other.contacts;
+    swept += other.swept;
+    unresolved += other.unresolved;
+    maxPenetration = std::max(maxPenetration, other.maxPenetration);
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
+        impulse[i] += other.impulse[i];
+        angularImpulse[i] += other.angularImpulse[i];
+    }
+    return *this;
+}
+
+void settle(MovingParticle& particle, const ColliderSet& colliders)
+{
+    const Probe probe = colliders.probe(particle.position, particle.radius);
+    particle.clearance = probe.clearance;
+    particle.inside = probe.gap < 0.0;
+}
+
+void step(MovingParticle& particle, const ColliderSet& colliders, const StepOptions& options, StepTally& tally)
+{
+    CollideContact(particle, colliders, options, tally).run();
+}
+
+} // namespace vdbounce
