@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/scene/run.h"
+
+#include "vdbounce/base/error.h"
+#include "vdbounce/contact/particle_pass.h"
+#include "vdbounce/io/particle_file.h"
+#include "vdbounce/scene/scene_load.h"
+
+#include <chrono>
+
+namespace vdbounce {
+namespace {
+
+StepOptions stepOptions(const Scene& scene)
+{
+    StepOptions options;
+    options.dt = scene.dt;
+    options.gravity = scene.gravity;
+    options.maxBounces = scene.maxBounces;
+    options.sweep = scene.sweep;
+    return options;
+}
+
+std::string startFile(const Scene& scene, int firstFrame)
+{
+    if (firstFrame == 0) return scene.particleFile;
+    if (!hasFramePattern(scene.outputFile)) {
+        throw UsageError("--frames " + std::to_string(firstFrame) + "-", "the output has no #### to find that frame by",
+                         "start at frame 0");
+    }
+    return framePath(scene.outputFile, firstFrame);
+}
+
+bool isWritten(const Scene& scene, int frame, int lastFrame)
+{
+    if (scene.outputFile.empty()) return false;
+    if (frame == lastFrame) return true;
+    return hasFramePattern(scene.outputFile) && frame % scene.every == 0;
+}
+
+void requireSteppable(const PassReport& pass, const Scene& scene)
+{
+    if (pass.rejected == 0) return;
+    throw InputError(scene.particleFile,
+                     std::to_string(pass.rejected) + " particles are not finite or have a negative radius or mass",
+                     "remove them or run without --strict");
+}
+
+class Run {
+public:
+    Run(const Scene& scene, const RunOptions& options, RunProgress& progress)
+        : scene_(scene), options_(options), progress_(progress),
+          lastFrame_(options.lastFrame < 0 ? scene.frames : options.lastFrame), colliders_(loadColliders(scene)),
+          defaults_(particleDefaults(scene, colliders_)),
+          particles_(readParticles(startFile(scene, options.firstFrame)))
+    {
+        requireBandsForRadius(scene_, colliders_, particles_, defaults_);
+        particles_.ensureVelocity();
+        report_.particles = particles_.size();
+        report_.tally = StepTally(colliders_.size());
+        report_.energyInitial = totalEnergy(particles_, defaults_, scene_.gravity);
+        for (const ColliderSpec& collider : scene_.colliders) report_.colliderNames.push_back(collider.name);
+    }
+
+    RunReport run()
+    {
+        if (options_.firstFrame == 0) writeFrame(0);
+        for (int frame = options_.firstFrame + 1; frame <= lastFrame_; ++frame) {
+            advance(frame);
+            writeFrame(frame);
+        }
+        report_.energyFinal = totalEnergy(particles_, defaults_, scene_.gravity);
+        return report_;
+    }
+
+private:
+    void advance(int frame)
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        const PassReport pass =
+            advanceParticles(particles_, colliders_, stepOptions(scene_), defaults_, scene_.stepsPerFrame, progress_);
+        report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        if (options_.strict) requireSteppable(pass, scene_);
+        report_.tally += pass.tally;
+        report_.rejected = pass.rejected;
+        report_.steps += static_cast<std::uint64_t>(scene_.stepsPerFrame);
+        ++report_.frames;
+        progress_.frameDone(frame, lastFrame_, report_.steps * report_.particles);
+    }
+
+    void writeFrame(int frame)
+    {
+        throwIfStopped(progress_);
+        if (!isWritten(scene_, frame, lastFrame_)) return;
+        const std::string path = framePath(scene_.outputFile, frame);
+        writeParticles(particles_, path);
+        report_.files.push_back(path);
+    }
+
+    const Scene& scene_;
+    const RunOptions& options_;
+    RunProgress& progress_;
+    const int lastFrame_;
+    const ColliderSet colliders_;
+    const ParticleDefaults defaults_;
+    Particles particles_;
+    RunReport report_;
+};
+
+} // namespace
+
+RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& progress)
+{
+    validate(scene);
+    if (!scene.outputFile.empty()) requireParticleFile(scene.outputFile);
+    const int lastFrame = options.lastFrame < 0 ? scene.frames : options.lastFrame;
+    if (options.firstFrame < 0 || options.firstFrame > lastFrame) {
+        throw UsageError("--frames " + std::to_string(options.firstFrame) + "-" + std::to_string(lastFrame),
+                         "is no range of frames", "give FIRST-LAST with FIRST not above LAST");
+    }
+    return Run(scene, options, progress).run();
+}
+
+} // namespace vdbounce

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/scene/scene.h"
+
+#include "vdbounce/base/error.h"
+#include "vdbounce/io/number_text.h"
+
+#include <cmath>
+
+namespace vdbounce {
+namespace {
+
+// Notes the first rule that does not hold.
+class Checker {
+public:
+    void require(bool good, const std::string& path, double value, const char* remedy)
+    {
+        if (!good && !fault) fault = SceneFault{path, value, remedy};
+    }
+    std::optional<SceneFault> fault;
+};
+
+void checkCollider(const ColliderSpec& collider, const std::string& path, Checker& checker)
+{
+    checker.require(collider.restitution >= 0.0 && collider.restitution <= 1.0, path + ".restitution",
+                    collider.restitution, "give 0 to 1");
+    checker.require(collider.friction >= 0.0 && std::isfinite(collider.friction), path + ".friction", collider.friction,
+                    "give 0 or more");
+    if (!collider.plane) return;
+    const double length = collider.plane->normal.norm();
+    checker.require(length > 0.0 && std::isfinite(length), path + ".plane.normal", length,
+                    "give a normal that is not zero");
+    checker.require(collider.plane->point.allFinite(), path + ".plane.point", collider.plane->point.norm(),
+                    "give finite numbers");
+}
+
+} // namespace
+
+std::optional<SceneFault> findFault(const Scene& scene)
+{
+    Checker checker;
+    checker.require(scene.dt > 0.0 && std::isfinite(scene.dt), "time.dt", scene.dt,
+                    "give a positive number of seconds");
+    checker.require(scene.stepsPerFrame >= 1, "time.steps_per_frame", scene.stepsPerFrame, "give 1 or more");
+    checker.require(scene.frames >= 0, "time.frames", scene.frames, "give 0 or more");
+    checker.require(scene.gravity.allFinite(), "world.gravity", scene.gravity.norm(), "give finite numbers");
+    const double radius = scene.radius.value;
+    checker.require(radius >= 0.0 && std::isfinite(radius), "particles.radius", radius, "give 0 or more");
+    checker.require(scene.mass > 0.0 && std::isfinite(scene.mass), "particles.mass", scene.mass,
+                    "give a positive mass");
+    checker.require(scene.maxBounces >= 0, "contact.max_bounces", scene.maxBounces, "give 0 or more");
+    checker.require(scene.every >= 1, "output.every", scene.every, "give 1 or more");
+    for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+        checkCollider(scene.colliders[i], "collider[" + std::to_string(i) + "]", checker);
+    }
+    return checker.fault;
+}
+
+void validate(const Scene& scene)
+{
+    if (const auto fault = findFault(scene)) {
+        throw UsageError(fault->path, numberText(fault->value) + " is out of range", fault->remedy);
+    }
+}
+
+bool hasFramePattern(const std::string& pattern) { return pattern.find('#') != std::string::npos; }
+
+std::string framePath(const std::string& pattern, int frame)
+{
+    const std::size_t begin = pattern.rfind('#');
+    if (begin == std::string::npos) return pattern;
+    std::size_t first = begin;
+    while (first > 0 && pattern[first - 1] == '#') --first;
+    const std::size_t width = begin - first + 1;
+    std::string number = std::to_string(frame);
+    if (number.size() < width) number.insert(0, width - number.size(), '0');
+    return pattern.substr(0, first) + number + pattern.substr(begin + 1);
+}
+
+} // namespace vdbounce

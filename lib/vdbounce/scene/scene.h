@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/base/length.h"
+#include "vdbounce/base/vector.h"
+#include "vdbounce/contact/step.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vdbounce {
+
+/// One `[[collider]]` of a scene: a level-set file or an analytic shape, and how it answers.
+struct ColliderSpec {
+    struct Plane {
+        Vec3d point = Vec3d::Zero();
+        Vec3d normal = Vec3d(0.0, 1.0, 0.0); ///< points out; any length but 0
+    };
+
+    std::string name;
+    std::string file; ///< a level set; empty when `plane` is set
+    std::optional<Plane> plane;
+    double restitution = 0.3; ///< 0 to 1
+    double friction = 0.5;    ///< >= 0
+};
+
+/// A scene as its file states it, paths resolved. The defaults are those of the scene file.
+struct Scene {
+    double dt = 0.004;      ///< seconds, > 0
+    int stepsPerFrame = 10; ///< >= 1
+    int frames = 48;        ///< >= 0
+    Vec3d gravity = Vec3d(0.0, -9.81, 0.0);
+
+    std::string particleFile;
+    Length radius;     ///< where the file carries none; in voxels: of the finest level set
+    double mass = 1.0; ///< where the file carries none
+
+    int maxBounces = 3;
+    Sweep sweep = Sweep::Auto;
+
+    std::vector<ColliderSpec> colliders;
+
+    std::string outputFile; ///< with #### for the frame: every `every`-th frame and the last; without: the last only;
+                            ///< empty: none
+    int every = 1;          ///< >= 1
+};
+
+/// A value that is out of range, and where it stands in the scene file: "time.dt", "collider[0].friction".
+struct SceneFault {
+    std::string path;
+    double value;
+    std::string remedy;
+};
+std::optional<SceneFault> findFault(const Scene& scene);
+
+/// Throws UsageError for the first value out of range.
+void validate(const Scene& scene);
+
+/// `pattern` with its run of # replaced by the frame, padded to the run's length: "out.####.vdb", 7 -> "out.0007.vdb".
+std::string framePath(const std::string& pattern, int frame);
+bool hasFramePattern(const std::string& pattern);
+
+} // namespace vdbounce
