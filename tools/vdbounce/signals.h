@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace vdbounce::tool {
+
+/// From now on the first SIGINT or SIGTERM asks the work to stop at its next good point, and the second ends the
+/// process at once with exit code 130; neither leaves a half-written file.
+void handleInterrupts();
+
+/// True after the first.
+bool interruptRequested();
+
+} // namespace vdbounce::tool

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// @file
+/// The verbs of the tool. Each add...() describes one verb on the command line and, when that verb is given, runs it:
+/// parse, call the library once, report. Failures leave by exception; main() turns them into one line and an exit code.
+
+namespace vdbounce::tool {
+
+/// What every verb takes.
+struct CommonOptions {
+    int threads = 0; ///< 0: all cores
+    bool json = false;
+    bool quiet = false;
+};
+
+void addMesh2ls(CLI::App& app, const CommonOptions& common);
+void addInfo(CLI::App& app, const CommonOptions& common);
+void addSample(CLI::App& app, const CommonOptions& common);
+void addEmit(CLI::App& app, const CommonOptions& common);
+void addConvert(CLI::App& app, const CommonOptions& common);
+void addCollide(CLI::App& app, const CommonOptions& common);
+void addRender(CLI::App& app, const CommonOptions& common);
+void addSlice(CLI::App& app, const CommonOptions& common);
+
+/// Runs `body` with the number of threads that the user asked for.
+void runWith(const CommonOptions& common, const std::function<void()>& body);
+
+} // namespace vdbounce::tool
