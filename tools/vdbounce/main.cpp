@@ -74,6 +74,10 @@ int run(int argc, char** argv)
         return app.exit(request);
     } catch (const CLI::ParseError& error) {
         const std::string verb = typedVerb(app);
+        const auto rest = app.remaining(/*recurse=*/true);
+        if (error.get_exit_code() == int(CLI::ExitCodes::RequiredError) && !rest.empty()) {
+            return fail(kExitUsage, verb + ": there is no '" + rest.front() + "'; see '" + verb + " --help'");
+        }
         return fail(kExitUsage, verb + ": " + error.what() + "; see '" + verb + " --help'");
     } catch (const Error& error) {
         return fail(error.exitCode(), error.what());

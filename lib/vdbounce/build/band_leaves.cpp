@@ -113,8 +113,10 @@ bool measureLeaf(const TriangleMesh& mesh, const LeafTriangle* list, std::size_t
             }
         }
     }
-    for (std::size_t offset = 0; offset < nearest2.size(); ++offset)
-        leaf.distance[offset] = float(std::sqrt(nearest2[offset]));
+    for (std::size_t offset = 0; offset < nearest2.size(); ++offset) {
+        const bool within = nearest2[offset] < band * band;
+        leaf.distance[offset] = within ? float(std::sqrt(nearest2[offset])) : std::numeric_limits<float>::infinity();
+    }
     return reached;
 }
 

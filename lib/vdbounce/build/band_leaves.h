@@ -16,7 +16,7 @@ struct BandLeaf {
     static constexpr int kVoxels = kSide * kSide * kSide;
 
     Vec3i leaf;                          ///< leaf coordinates: voxel coordinates over 8
-    std::array<float, kVoxels> distance; ///< world units, z fastest; the band's width where the mesh is farther
+    std::array<float, kVoxels> distance; ///< world units, z fastest; infinite where the mesh is farther than the band
 
     Vec3i voxel(int offset) const { return leaf * kSide + Vec3i(offset >> 6, offset >> 3 & 7, offset & 7); }
 };

@@ -25,8 +25,8 @@ public:
     Closest closest(const Vec3d& p) const;
 
     /// How often the mesh winds around p: 1 inside, 0 outside of a closed outward-facing mesh, and in between near
-    /// holes. Far groups of triangles count as a dipole; the error is below 0.01 (Barill et al. 2018, accuracy 2, first
-    /// order).
+    /// holes. Far groups of triangles count as a dipole, the first order of Barill et al. 2018: within 0.05 of the
+    /// exact sum.
     double windingNumber(const Vec3d& p) const;
 
     /// True when p is inside by the parity of crossings, the majority of several rays in fixed oblique directions.

@@ -8,6 +8,9 @@
 namespace vdbounce {
 namespace {
 
+// Squared sine of the angle at a below which the projection onto the triangle's plane is not trusted alone.
+constexpr double kSliver = 1e-6;
+
 // start + t (end - start) for the t in [0, 1] closest to p.
 Vec3d closestOnSegment(const Vec3d& p, const Vec3d& start, const Vec3d& end)
 {
@@ -51,10 +54,13 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, con
     const double va = d3 * d6 - d5 * d4;
     const double vb = d5 * d2 - d1 * d6;
     const double vc = d1 * d4 - d3 * d2;
-    const double area = va + vb + vc;
-    // A sliver has no inside to project to; whatever its edges say is then exact.
-    if (!(area > 0.0) || va <= 0.0 || vb <= 0.0 || vc <= 0.0) return closestOnEdges(p, a, b, c);
-    return a + ab * (vb / area) + ac * (vc / area);
+    const double area2 = va + vb + vc; // |ab x ac|^2
+    if (!(area2 > 0.0) || va <= 0.0 || vb <= 0.0 || vc <= 0.0) return closestOnEdges(p, a, b, c);
+    const Vec3d within = a + ab * (vb / area2) + ac * (vc / area2);
+    if (area2 > kSliver * ab.squaredNorm() * ac.squaredNorm()) return within;
+    // In a sliver rounding moves the projection; its edges are never far and always certain.
+    const Vec3d beside = closestOnEdges(p, a, b, c);
+    return (beside - p).squaredNorm() < (within - p).squaredNorm() ? beside : within;
 }
 
 double windingContribution(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)

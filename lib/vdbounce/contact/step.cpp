@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vdbounce {
@@ -69,8 +70,9 @@ public:
             if (touch.touching) {
                 ++tally_.contacts;
                 touch = bounce(touch);
+                const std::size_t last = touch.collider;
                 touch = rest(touch);
-                if (touch.touching) hold(touch);
+                if (touch.touching || !paysForItsHeight(last)) hold(touch.touching ? touch.collider : last);
             }
         }
         accept();
@@ -174,10 +176,24 @@ private:
         react(collider, endVelocity_ - before);
     }
 
-    // Started outside and could not be brought out again: back to where it was, at rest.
-    void hold(const Touch& touch)
+    // A collider at rest does no work, but moving a particle out of a curved surface may lift it: what it gained in
+    // height is taken from its speed. False when its speed cannot pay.
+    bool paysForItsHeight(std::size_t collider)
     {
-        react(touch.collider, -endVelocity_);
+        const double speed2 = endVelocity_.squaredNorm();
+        const double allowed2 = particle_.velocity.squaredNorm() + 2.0 * options_.gravity.dot(candidate_ - start_);
+        if (speed2 <= allowed2) return true;
+        if (allowed2 < 0.0) return false;
+        const Vec3d before = endVelocity_;
+        endVelocity_ *= std::sqrt(allowed2 / speed2);
+        react(collider, endVelocity_ - before);
+        return true;
+    }
+
+    // Started outside and could not be brought out again: back to where it was, at rest.
+    void hold(std::size_t collider)
+    {
+        react(collider, -endVelocity_);
         endVelocity_ = Vec3d::Zero();
         candidate_ = start_;
         probe_ = colliders_.probe(candidate_, particle_.radius);

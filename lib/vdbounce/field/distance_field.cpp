@@ -6,8 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vdbounce {
+namespace {
+
+// What is known of a point that is not finite.
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
 
 DistanceField::DistanceField(const LevelSetGrid& grid)
 {
@@ -65,10 +72,24 @@ FieldSample DistanceField::sampleInBox(const Vec3d& index) const
     return trilinearWithGradient(near.values, near.strideX, near.strideY, cell.at);
 }
 
+// phi with the gradient of the trilinear cell itself, which is phi's derivative exactly and reaches no voxel beside the
+// box.
+FieldSample DistanceField::cellSampleInBox(const Vec3d& index) const
+{
+    const Cell cell(index);
+    float copy[64];
+    float constant = 0.0f;
+    const Neighbourhood near = neighbourhood(cell, copy, constant);
+    if (near.values == nullptr) return {constant, Vec3d::Zero()};
+    return trilinearWithCellGradient(near.values + near.strideX + near.strideY + 1, near.strideX, near.strideY,
+                                     cell.at);
+}
+
 double DistanceField::phi(const Vec3d& world) const
 {
     const Vec3d index = transform_.toIndex(world);
     if (indexBox_.contains(index)) return phiInBox(index);
+    if (!index.allFinite()) return kNotANumber;
     if (empty()) return background_;
     const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
     const double a = transform_.vectorToWorld(index - closest).norm();
@@ -84,8 +105,27 @@ FieldSample DistanceField::sample(const Vec3d& world) const
         sample.gradient = transform_.gradientToWorld(sample.gradient);
         return sample;
     }
+    if (!index.allFinite()) return {kNotANumber, Vec3d::Constant(kNotANumber)};
     if (empty()) return {background_, Vec3d::Zero()};
     return sampleOutside(index);
+}
+
+// The part of a world vector that points along the face or edge of the box on which `closest` lies; `offset` leads from
+// there to the point that it is closest to, so it is perpendicular to both.
+Vec3d DistanceField::alongBox(const Vec3d& closest, const Vec3d& offset, const Vec3d& vector) const
+{
+    int freeAxes = 0;
+    int freeAxis = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (closest[axis] <= indexBox_.min[axis] || closest[axis] >= indexBox_.max[axis]) continue;
+        ++freeAxes;
+        freeAxis = axis;
+    }
+    if (freeAxes == 0) return Vec3d::Zero();
+    const Vec3d edge = transform_.vectorToWorld(Vec3d::Unit(freeAxis)).normalized();
+    if (freeAxes == 1) return edge.dot(vector) * edge;
+    const Vec3d normal = offset.normalized();
+    return vector - normal.dot(vector) * normal;
 }
 
 FieldSample DistanceField::sampleOutside(const Vec3d& index) const
@@ -93,16 +133,13 @@ FieldSample DistanceField::sampleOutside(const Vec3d& index) const
     const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
     const Vec3d offset = transform_.vectorToWorld(index - closest);
     const double a = offset.norm();
-    const FieldSample atBox = sampleInBox(closest);
+    const FieldSample atBox = cellSampleInBox(closest);
     const double b = atBox.phi;
     const double magnitude = std::hypot(a, b);
-    // d/dx of sqrt(A^2 + B^2) is (A dA/dx + B dB/dx) / sqrt: A grows along the offset, and B changes only with the
-    // coordinates along which the closest point still moves.
-    Vec3d sliding = atBox.gradient;
-    for (int axis = 0; axis < 3; ++axis) {
-        if (closest[axis] != index[axis]) sliding[axis] = 0.0;
-    }
-    const Vec3d gradient = (offset + b * transform_.gradientToWorld(sliding)) / magnitude;
+    // d/dx of sqrt(A^2 + B^2) is (A dA/dx + B dB/dx) / sqrt: A grows along the offset, and B changes only as the
+    // closest point slides along its face or edge of the box.
+    const Vec3d sliding = alongBox(closest, offset, transform_.gradientToWorld(atBox.gradient));
+    const Vec3d gradient = (offset + b * sliding) / magnitude;
     return {std::copysign(magnitude, b), std::copysign(1.0, b) * gradient};
 }
 
@@ -115,7 +152,10 @@ Interval DistanceField::boundsInBox(const Vec3d& index) const
     Interval bounds{-diagonal, diagonal};
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-        const float value = blocks_.valueAt(cell.voxel + offset);
+        // A voxel beside the box knows nothing: its background is no distance where every voxel of the box is active.
+        const Vec3i voxel = cell.voxel + offset;
+        if (!indexBox_.contains(voxel.cast<double>())) continue;
+        const float value = blocks_.valueAt(voxel);
         const double travelled = transform_.vectorToWorld(cell.at - offset.cast<double>()).norm();
         if (value > -background_) bounds.lower = std::max(bounds.lower, value - travelled);
         if (value < background_) bounds.upper = std::min(bounds.upper, value + travelled);
@@ -128,6 +168,7 @@ Interval DistanceField::bounds(const Vec3d& world) const
     const double infinity = std::numeric_limits<double>::infinity();
     const Vec3d index = transform_.toIndex(world);
     if (indexBox_.contains(index)) return boundsInBox(index);
+    if (!index.allFinite()) return {kNotANumber, kNotANumber};
     if (empty()) return {background_, infinity};
     const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
     const double a = transform_.vectorToWorld(index - closest).norm();
@@ -167,17 +208,12 @@ bool DistanceField::surfaceReachesBox() const
     const Vec3i low = indexBox_.min.cast<int>();
     const Vec3i high = indexBox_.max.cast<int>();
     for (int axis = 0; axis < 3; ++axis) {
-        const int u = (axis + 1) % 3;
-        const int v = (axis + 2) % 3;
-        for (const int side : {low[axis], high[axis]}) {
-            Vec3i voxel;
-            voxel[axis] = side;
-            for (voxel[u] = low[u]; voxel[u] <= high[u]; ++voxel[u]) {
-                for (voxel[v] = low[v]; voxel[v] <= high[v]; ++voxel[v]) {
-                    if (blocks_.valueAt(voxel) < 0.0f) return true;
-                }
-            }
-        }
+        Vec3i first = low;
+        Vec3i last = high;
+        last[axis] = low[axis];
+        if (blocks_.anyBelow(first, last, 0.0f)) return true;
+        first[axis] = last[axis] = high[axis];
+        if (blocks_.anyBelow(first, last, 0.0f)) return true;
     }
     return false;
 }

@@ -79,7 +79,9 @@ private:
 
     double phiInBox(const Vec3d& index) const;
     FieldSample sampleInBox(const Vec3d& index) const;
+    FieldSample cellSampleInBox(const Vec3d& index) const;
     FieldSample sampleOutside(const Vec3d& index) const;
+    Vec3d alongBox(const Vec3d& closest, const Vec3d& offset, const Vec3d& vector) const;
     Interval boundsInBox(const Vec3d& index) const;
 
     // The 4^3 values around a cell: in place where a block holds them, else copied to `copy`; null where all are one

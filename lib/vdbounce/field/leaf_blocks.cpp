@@ -79,6 +79,35 @@ float LeafBlocks::valueAt(const Vec3i& voxel) const
     return block(entry.block())[offset];
 }
 
+bool LeafBlocks::anyBelow(const Vec3i& min, const Vec3i& max, float limit) const
+{
+    const Vec3i low = shifted(min, kLeafBits);
+    const Vec3i high = shifted(max, kLeafBits);
+    const auto tileIsBelow = [&](std::int32_t code) { return tileValue(Entry(code)) < limit; };
+    bool found = tileValues_[0] < limit;
+    for (const auto& [place, number] : sparseNodes_) {
+        const Vec3i first = (place.at * kNodeSide).cwiseMax(low);
+        const Vec3i last = (place.at * kNodeSide + Vec3i::Constant(kNodeSide - 1)).cwiseMin(high);
+        if (found || (first.array() > last.array()).any()) continue;
+        if (number < 0) {
+            found = tileIsBelow(number);
+            continue;
+        }
+        const Node& node = nodes_[static_cast<std::size_t>(number)];
+        forEachIn(first, last, [&](const Vec3i& leaf) {
+            const std::int32_t code = node.code[entryInNode(leaf, kNodeSide)];
+            if (code < 0) {
+                found = found || tileIsBelow(code);
+                return;
+            }
+            const Vec3i origin = leaf * kLeafSide;
+            forEachIn(origin.cwiseMax(min), (origin + Vec3i::Constant(kLeafSide - 1)).cwiseMin(max),
+                      [&](const Vec3i& voxel) { found = found || valueAt(voxel) < limit; });
+        });
+    }
+    return found;
+}
+
 LeafBlocks::Node& LeafBlocks::touchNode(const Vec3i& node)
 {
     std::int32_t& number = sparseNodes_.try_emplace({node}, tileCode(0, false)).first->second;
@@ -139,14 +168,8 @@ void LeafBlocks::link()
     touchNodesThatMeetOthers();
     indexNodesDensely();
     std::vector<Vec3i> places(nodes_.size());
-    const auto note = [&](const Vec3i& place, std::int32_t number) {
-        if (number >= 0) places[static_cast<std::size_t>(number)] = place;
-    };
-    if (denseNodes_.empty()) {
-        for (const auto& [place, number] : sparseNodes_) note(place.at, number);
-    } else {
-        forEachIn(denseMin_, denseMin_ + denseSize_ - Vec3i::Ones(),
-                  [&](const Vec3i& place) { note(place, denseNodes_[flatIndex(place - denseMin_, denseSize_)]); });
+    for (const auto& [place, number] : sparseNodes_) {
+        if (number >= 0) places[static_cast<std::size_t>(number)] = place.at;
     }
     // Marks are the lowest bit of a code and every comparison ignores them, but nodes read each other's codes: so
     // all marks are found before any is set.
@@ -230,7 +253,6 @@ void LeafBlocks::indexNodesDensely()
     denseSize_ = high - low + Vec3i::Ones();
     denseNodes_.assign(static_cast<std::size_t>(size.prod()), tileCode(0, false));
     for (const auto& [place, number] : sparseNodes_) denseNodes_[flatIndex(place.at - denseMin_, denseSize_)] = number;
-    sparseNodes_.clear();
 }
 
 std::size_t LeafBlocks::memoryBytes() const

@@ -61,6 +61,10 @@ public:
     /// The value of any voxel in space.
     float valueAt(const Vec3i& voxel) const;
 
+    /// True when any voxel of the box [min, max] has a value below `limit`. Costs as much as the box has leaves in
+    /// nodes.
+    bool anyBelow(const Vec3i& min, const Vec3i& max, float limit) const;
+
     std::size_t memoryBytes() const;
 
     // Building, in this order: all leaves, all tiles, link(), then the values of each block in parallel.

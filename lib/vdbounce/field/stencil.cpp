@@ -26,6 +26,23 @@ double trilinear(const float* values, int strideX, int strideY, const Vec3d& at)
     return alongYZ(values) * (1.0 - at.x()) + alongYZ(values + strideX) * at.x();
 }
 
+FieldSample trilinearWithCellGradient(const float* values, int strideX, int strideY, const Vec3d& at)
+{
+    FieldSample sample;
+    for (int corner = 0; corner < 8; ++corner) {
+        const int side[3] = {corner & 1, corner >> 1 & 1, corner >> 2 & 1};
+        const double value = double(values[side[0] * strideX + side[1] * strideY + side[2]]);
+        double weight[3];
+        for (int axis = 0; axis < 3; ++axis) weight[axis] = side[axis] == 1 ? at[axis] : 1.0 - at[axis];
+        sample.phi += weight[0] * weight[1] * weight[2] * value;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double others = weight[(axis + 1) % 3] * weight[(axis + 2) % 3];
+            sample.gradient[axis] += (side[axis] == 1 ? others : -others) * value;
+        }
+    }
+    return sample;
+}
+
 FieldSample trilinearWithGradient(const float* values, int strideX, int strideY, const Vec3d& at)
 {
     const AxisWeights x(at.x());

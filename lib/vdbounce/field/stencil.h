@@ -15,6 +15,9 @@ struct FieldSample {
 /// block of floats with the given strides (z is contiguous); `at` is the point's place in its cell, 0 to 1 an axis.
 double trilinear(const float* values, int strideX, int strideY, const Vec3d& at);
 
+/// The same with its own derivative, which jumps from cell to cell. Index space.
+FieldSample trilinearWithCellGradient(const float* values, int strideX, int strideY, const Vec3d& at);
+
 /// Trilinear phi and the trilinear interpolation of the central differences at the 8 voxels around the point, both in
 /// index space (lecture, slide 28). Uses the 32 values within one voxel of the cell, of a 4^3 neighbourhood whose first
 /// is one below the cell along each axis.

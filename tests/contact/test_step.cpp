@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/grids.h"
+#include "support/random.h"
+
+#include "vdbounce/contact/particle_pass.h"
+#include "vdbounce/contact/step.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+#include <tbb/global_control.h>
+
+using namespace vdbounce;
+using namespace vdbounce::test;
+
+namespace {
+
+constexpr double kGravity = 9.81;
+
+// The same half space as an analytic plane, as a level set along the axes, and as one turned off them.
+struct Ground {
+    const char* name;
+    decltype(Collider::shape) shape;
+};
+
+std::vector<Ground> grounds(const Vec3d& normal)
+{
+    auto turned = uniformTransform(0.05);
+    turned->postRotate(0.4, openvdb::math::X_AXIS);
+    turned->postRotate(0.3, openvdb::math::Z_AXIS);
+    const auto field = [&](const openvdb::math::Transform::Ptr& transform) {
+        return std::make_shared<const DistanceField>(levelSet(bandGrid(halfSpace(normal, 0.011), transform, 40, 6.0)));
+    };
+    return {{"plane", PlaneField(0.011 * normal.normalized(), normal)},
+            {"aligned level set", field(uniformTransform(0.05))},
+            {"turned level set", field(turned)}};
+}
+
+ColliderSet single(const Ground& ground, double restitution, double friction)
+{
+    return ColliderSet({{"ground", ground.shape, restitution, friction}});
+}
+
+MovingParticle placed(const Vec3d& position, const Vec3d& velocity, const ColliderSet& colliders, double radius = 0.0)
+{
+    MovingParticle particle;
+    particle.position = position;
+    particle.velocity = velocity;
+    particle.radius = radius;
+    settle(particle, colliders);
+    return particle;
+}
+
+double energy(const MovingParticle& p, const Vec3d& gravity)
+{
+    return 0.5 * p.velocity.squaredNorm() - gravity.dot(p.position);
+}
+
+const Vec3d kUp(0, 1, 0);
+
+} // namespace
+
+TEST_CASE("restitution ladder: peak k is (h0 - r) e^(2k) + r")
+{
+    for (const Ground& ground : grounds(kUp)) {
+        for (double e : {0.5, 0.7, 0.9, 1.0}) {
+            INFO(ground.name << ", restitution " << e);
+            const ColliderSet colliders = single(ground, e, 0.3);
+            const double radius = 0.02;
+            const double h0 = 1.0;
+            StepOptions options;
+            options.dt = 1e-3;
+            MovingParticle particle = placed(Vec3d(0.01, 0.011 + h0, 0.02), Vec3d::Zero(), colliders, radius);
+            StepTally tally(1);
+            int bounce = 0;
+            double peak = 0.0;
+            bool rising = false;
+            for (int s = 0; s < 6000 && bounce < 5; ++s) {
+                step(particle, colliders, options, tally);
+                const double height = particle.position.y() - 0.011;
+                if (particle.velocity.y() > 0.0) {
+                    rising = true;
+                    peak = std::max(peak, height + particle.velocity.y() * particle.velocity.y() / (2 * kGravity));
+                } else if (rising) {
+                    ++bounce;
+                    const double expected = (h0 - radius) * std::pow(e, 2 * bounce) + radius;
+                    REQUIRE(std::abs(peak - expected) <= 0.005 * h0);
+                    rising = false;
+                    peak = 0.0;
+                }
+            }
+            CHECK(bounce == 5);
+            CHECK(tally.unresolved == 0);
+        }
+    }
+}
+
+TEST_CASE("a sliding particle stops after v0^2 / (2 mu g)")
+{
+    for (const Ground& ground : grounds(kUp)) {
+        INFO(ground.name);
+        const ColliderSet colliders = single(ground, 0.4, 0.3);
+        StepOptions options;
+        options.dt = 1e-3;
+        const double v0 = 2.0;
+        MovingParticle particle = placed(Vec3d(-0.5, 0.011, 0), Vec3d(v0, 0, 0), colliders);
+        StepTally tally(1);
+        for (int s = 0; s < 2000; ++s) step(particle, colliders, options, tally);
+        CHECK(particle.velocity.norm() == 0.0);
+        CHECK(particle.position.x() + 0.5 == Approx(v0 * v0 / (2 * 0.3 * kGravity)).epsilon(0.01));
+    }
+}
+
+TEST_CASE("on an incline a particle rests exactly while tan(theta) <= mu, and else accelerates by g (sin - mu cos)")
+{
+    const double mu = 0.4;
+    const double limit = std::atan(mu);
+    for (double theta : {limit - 0.0174, limit + 0.0174, 0.7}) {
+        const Vec3d normal(std::sin(theta), std::cos(theta), 0);
+        const Vec3d downhill(std::cos(theta), -std::sin(theta), 0);
+        for (const Ground& ground : grounds(normal)) {
+            INFO(ground.name << ", " << theta * 180 / M_PI << " degrees");
+            const ColliderSet colliders = single(ground, 0.3, mu);
+            StepOptions options;
+            options.dt = 1e-3;
+            const Vec3d start = (0.011 + 1e-6) * normal - 0.5 * downhill;
+            MovingParticle particle = placed(start, Vec3d::Zero(), colliders);
+            StepTally tally(1);
+            // Let it touch first: it starts a hair above.
+            for (int s = 0; s < 20; ++s) step(particle, colliders, options, tally);
+            const Vec3d touched = particle.position;
+            const double before = particle.velocity.dot(downhill);
+            for (int s = 0; s < 400; ++s) step(particle, colliders, options, tally);
+            if (theta < limit) {
+                CHECK(particle.position == touched);
+                CHECK(particle.velocity == Vec3d::Zero());
+            } else {
+                const double expected = kGravity * (std::sin(theta) - mu * std::cos(theta));
+                CHECK((particle.velocity.dot(downhill) - before) / 0.4 == Approx(expected).epsilon(0.01));
+                CHECK((particle.position - touched).dot(downhill) ==
+                      Approx(before * 0.4 + 0.5 * expected * 0.16).epsilon(0.01));
+            }
+        }
+    }
+}
+
+TEST_CASE("a resting particle stays where it is, to the bit")
+{
+    for (const Ground& ground : grounds(Vec3d(0.1, 1, -0.05))) {
+        INFO(ground.name);
+        const ColliderSet colliders = single(ground, 0.5, 0.6);
+        StepOptions options;
+        MovingParticle particle = placed(Vec3d(0.1, 0.2, 0.1), Vec3d::Zero(), colliders, 0.03);
+        StepTally tally(1);
+        for (int s = 0; s < 3000; ++s) step(particle, colliders, options, tally);
+        const Vec3d resting = particle.position;
+        for (int s = 0; s < 20000; ++s) step(particle, colliders, options, tally);
+        CHECK(particle.position == resting);
+        CHECK(particle.velocity == Vec3d::Zero());
+        CHECK(tally.unresolved == 0);
+    }
+}
+
+TEST_CASE("what starts outside ends outside, and energy never grows, in random scenes")
+{
+    VDBOUNCE_RANDOM(random);
+    for (int scene = 0; scene < 30; ++scene) {
+        std::vector<Collider> list;
+        const double e = random.uniform(0, 1);
+        const double mu = random.uniform(0, 1);
+        for (int i = 0; i < 3; ++i) {
+            const Vec3d centre = random.in(Box{Vec3d::Constant(-0.4), Vec3d::Constant(0.4)});
+            const Phi phi = sphere(random.uniform(0.2, 0.5), centre);
+            list.push_back({"ball" + std::to_string(i),
+                            std::make_shared<const DistanceField>(levelSet(bandGrid(phi, uniformTransform(0.05), 22))),
+                            e, mu});
+        }
+        list.push_back({"floor", PlaneField(Vec3d(0, -0.5, 0), Vec3d(random.uniform(-0.3, 0.3), 1, 0)), e, mu});
+        const ColliderSet colliders(std::move(list));
+        StepOptions options;
+        options.dt = std::pow(10.0, random.uniform(-3.5, -1.5));
+        for (int i = 0; i < 60; ++i) {
+            const double radius = i % 3 == 0 ? 0.0 : random.uniform(0, 0.08);
+            MovingParticle particle = placed(random.in(Box{Vec3d(-0.8, -0.3, -0.8), Vec3d(0.8, 1.2, 0.8)}),
+                                             random.uniform(0, 3) * random.direction(), colliders, radius);
+            if (particle.inside) continue;
+            StepTally tally(colliders.size());
+            double before = energy(particle, options.gravity);
+            for (int s = 0; s < 300; ++s) {
+                step(particle, colliders, options, tally);
+                INFO("scene " << scene << ", particle " << i << ", step " << s << ", dt " << options.dt);
+                REQUIRE(particle.position.allFinite());
+                REQUIRE(colliders.probe(particle.position, radius).gap >= 0.0);
+                const double now = energy(particle, options.gravity);
+                REQUIRE(now <= before + 1e-12 * (1.0 + std::abs(before)));
+                before = now;
+            }
+        }
+    }
+}
+
+TEST_CASE("a particle that starts inside comes out and does not shoot off")
+{
+    const ColliderSet colliders(
+        {{"ball",
+          std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22, 5.0))), 0.9,
+          0.1}});
+    StepOptions options;
+    options.gravity = Vec3d::Zero();
+    MovingParticle particle = placed(Vec3d(0.5, 0.45, 0), Vec3d(0.1, 0, 0), colliders);
+    REQUIRE(particle.inside);
+    StepTally tally(1);
+    for (int s = 0; s < 200; ++s) step(particle, colliders, options, tally);
+    CHECK_FALSE(particle.inside);
+    CHECK(particle.velocity.norm() <= 0.1);
+    CHECK(tally.unresolved > 0);
+    CHECK(tally.maxPenetration > 0.0);
+}
+
+TEST_CASE("a collider takes the opposite impulse")
+{
+    const ColliderSet colliders = single(grounds(kUp)[0], 0.5, 0.3);
+    StepOptions options;
+    options.dt = 1e-3;
+    MovingParticle particle = placed(Vec3d(0, 0.5, 0), Vec3d(1, 0, 0), colliders);
+    particle.mass = 3.0;
+    StepTally tally(1);
+    const int steps = 1000;
+    for (int s = 0; s < steps; ++s) step(particle, colliders, options, tally);
+    const Vec3d change = 3.0 * (particle.velocity - Vec3d(1, 0, 0));
+    const Vec3d byGravity = 3.0 * steps * options.dt * options.gravity;
+    CHECK((change - byGravity + tally.impulse[0]).norm() < 1e-10);
+}
+
+TEST_CASE("skipping lookups by clearance changes no bit")
+{
+    VDBOUNCE_RANDOM(random);
+    const ColliderSet colliders(
+        {{"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
+          0.5, 0.3},
+         {"floor", PlaneField(Vec3d(0, -1, 0), kUp), 0.5, 0.3}});
+    StepOptions options;
+    options.dt = 2e-3;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d start = random.in(Box{Vec3d(-1, 0.9, -1), Vec3d(1, 2, 1)});
+        MovingParticle lazy = placed(start, Vec3d::Zero(), colliders, 0.02);
+        MovingParticle eager = lazy;
+        StepTally tally(2);
+        for (int s = 0; s < 600; ++s) {
+            step(lazy, colliders, options, tally);
+            eager.clearance = 0.0;
+            step(eager, colliders, options, tally);
+            REQUIRE(lazy.position == eager.position);
+            REQUIRE(lazy.velocity == eager.velocity);
+        }
+    }
+}
+
+TEST_CASE("a pass has the same bits for any number of threads and any split into passes")
+{
+    VDBOUNCE_RANDOM(random);
+    const ColliderSet colliders(
+        {{"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
+          0.5, 0.3},
+         {"floor", PlaneField(Vec3d(0, -1, 0), kUp), 0.5, 0.3}});
+    Particles start;
+    start.resize(20000);
+    for (Vec3d& p : start.position) p = random.in(Box{Vec3d(-1, 0.9, -1), Vec3d(1, 2, 1)});
+    start.ensureVelocity();
+    start.position[77].x() = std::nan("");
+    const StepOptions options;
+    const ParticleDefaults defaults{0.01, 2.0};
+
+    Particles whole = start;
+    const PassReport all = advanceParticles(whole, colliders, options, defaults, 120);
+    CHECK(all.rejected == 1);
+    CHECK(std::isnan(whole.position[77].x()));
+    for (std::size_t threads : {1u, 3u}) {
+        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+        Particles same = start;
+        const PassReport report = advanceParticles(same, colliders, options, defaults, 120);
+        same.position[77] = whole.position[77] = Vec3d::Zero();
+        CHECK(same.position == whole.position);
+        CHECK(same.velocity == whole.velocity);
+        CHECK(report.tally.impulse == all.tally.impulse);
+        CHECK(report.tally.angularImpulse == all.tally.angularImpulse);
+        CHECK(totalEnergy(same, defaults, options.gravity) == totalEnergy(whole, defaults, options.gravity));
+    }
+    Particles parts = start;
+    for (int i = 0; i < 12; ++i) advanceParticles(parts, colliders, options, defaults, 10);
+    parts.position[77] = Vec3d::Zero();
+    CHECK(parts.position == whole.position);
+    CHECK(parts.velocity == whole.velocity);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/grids.h"
+#include "support/random.h"
+
+#include "vdbounce/field/distance_field.h"
+#include "vdbounce/field/plane_field.h"
+
+#include <openvdb/tools/SignedFloodFill.h>
+
+using namespace vdbounce;
+using namespace vdbounce::test;
+
+TEST_CASE("the box rule: a sphere seen from outside its grid")
+{
+    // Sphere of radius 0.5 in the grid [-0.6, 0.6]^3, seen from (2, 0, 0): lower 1.4036, upper and true 1.5.
+    const auto grid = denseGrid(sphere(0.5), uniformTransform(0.05), 12);
+    const DistanceField field(levelSet(grid));
+    const Interval bounds = field.bounds(Vec3d(2, 0, 0));
+    CHECK(bounds.lower == Approx(1.4036).margin(1e-4));
+    CHECK(bounds.upper == Approx(1.5).margin(1e-6));
+    CHECK(field.phi(Vec3d(2, 0, 0)) == Approx(1.4036).margin(1e-4));
+}
+
+TEST_CASE("the box rule: a half space that its box cuts off")
+{
+    // z < 0.25 on [0, 1]^3, seen from z = -0.5: the larger of the two and the truth are -0.75, and the sign stays
+    // inside.
+    auto grid = openvdb::FloatGrid::create(1.0f);
+    grid->setTransform(uniformTransform(0.05));
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    auto accessor = grid->getAccessor();
+    for (int x = 0; x <= 20; ++x) {
+        for (int y = 0; y <= 20; ++y) {
+            for (int z = 0; z <= 20; ++z) accessor.setValueOn(openvdb::Coord(x, y, z), float(0.05 * z - 0.25));
+        }
+    }
+    const DistanceField field(levelSet(grid));
+    CHECK(field.clipped());
+    const Interval bounds = field.bounds(Vec3d(0.5, 0.5, -0.5));
+    CHECK(bounds.lower == Approx(-0.75).margin(1e-6));
+    CHECK(bounds.upper == Approx(-std::hypot(0.5, 0.25)).margin(1e-6));
+    CHECK(field.phi(Vec3d(0.5, 0.5, -0.5)) < 0.0);
+}
+
+TEST_CASE("bounds hold the true distance anywhere in space")
+{
+    VDBOUNCE_RANDOM(random);
+    auto rotated = uniformTransform(0.1);
+    rotated->postRotate(0.6, openvdb::math::Y_AXIS);
+    rotated->postTranslate(openvdb::Vec3d(4, -3, 2));
+    Mat3d rows;
+    rows << 0.1, 0.03, 0, -0.02, 0.12, 0.03, 0, 0.02, 0.09;
+    const auto sheared = affineTransform(rows, Vec3d::Ones());
+    for (const auto& transform : {uniformTransform(0.1), rotated, sheared}) {
+        const openvdb::Vec3d middle = transform->indexToWorld(openvdb::Vec3d(0));
+        const Vec3d centre(middle[0], middle[1], middle[2]);
+        const Phi phi = sphere(1.1, centre);
+        const DistanceField field(levelSet(bandGrid(phi, transform, 24)));
+        CHECK_FALSE(field.clipped());
+        for (int i = 0; i < 100000; ++i) {
+            // In the band, between band and box, deep inside, outside, and up to a million box sizes away.
+            const double reach = std::pow(10.0, random.uniform(-2, 6.5));
+            const Vec3d p = centre + reach * random.direction();
+            const Interval bounds = field.bounds(p);
+            const double slack = 1e-6 * (1.0 + reach);
+            INFO("at " << p.transpose() << ": " << bounds.lower << " <= " << phi(p) << " <= " << bounds.upper);
+            REQUIRE(bounds.lower <= phi(p) + slack);
+            REQUIRE(bounds.upper >= phi(p) - slack);
+        }
+    }
+}
+
+TEST_CASE("bounds are tight in the band and exact far away")
+{
+    VDBOUNCE_RANDOM(random);
+    const DistanceField field(levelSet(bandGrid(sphere(1.0), uniformTransform(0.05), 26)));
+    for (int i = 0; i < 10000; ++i) {
+        const Vec3d direction = random.direction();
+        const Interval near = field.bounds(random.uniform(0.95, 1.05) * direction);
+        REQUIRE(near.upper - near.lower <= 2.0 * std::sqrt(3.0) * 0.05);
+        const Interval far = field.bounds(1e6 * direction);
+        REQUIRE(far.lower == Approx(1e6 - 1.0).epsilon(1e-5));
+        REQUIRE(far.upper == Approx(1e6 - 1.0).epsilon(1e-5));
+    }
+}
+
+TEST_CASE("a particle can travel its free distance without phi changing its sign, beside a cut surface too")
+{
+    VDBOUNCE_RANDOM(random);
+    // A slab that reaches through the sides of its box.
+    const auto grid = denseGrid(halfSpace(Vec3d(0.2, 1, 0.1)), uniformTransform(0.1), 10);
+    const DistanceField field(levelSet(grid));
+    REQUIRE(field.clipped());
+    for (int i = 0; i < 50000; ++i) {
+        const Vec3d p = random.in(Box{Vec3d::Constant(-3), Vec3d::Constant(3)});
+        const double phi = field.phi(p);
+        if (phi <= 0.0) continue;
+        const double free = field.freeDistance(p, phi) / field.lipschitz();
+        const Vec3d q = p + random.uniform(0, 1) * free * random.direction();
+        INFO(p.transpose() << " to " << q.transpose());
+        REQUIRE(field.phi(q) >= -1e-6);
+    }
+}
+
+TEST_CASE("a plane is exact everywhere")
+{
+    const PlaneField plane(Vec3d(0, 1, 0), Vec3d(0, 2, 0));
+    CHECK(plane.phi(Vec3d(5, 4, 3)) == 3.0);
+    CHECK(plane.sample(Vec3d(5, -4, 3)).gradient == Vec3d(0, 1, 0));
+    CHECK(plane.bounds(Vec3d(0, 0, 0)).lower == -1.0);
+}
