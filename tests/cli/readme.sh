@@ -1,2 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
+# Runs every ```sh block of the README in a fresh folder, with vdbounce on the PATH and the mesh that it uses in place.
+# The two commands that install and build, ./dev demo and ./dev test, must be in a ```console block, which is not run here.
+# usage: readme.sh VDBOUNCE SOURCE_FOLDER WORK_FOLDER
+set -euo pipefail
+source=$2
+rm -rf "$3"
+mkdir -p "$3/bin"
+cd "$3"
+ln -s "$1" bin/vdbounce
+PATH="$PWD/bin:$PATH"
+cp "$source/data/bunny.obj" .
+awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >commands.sh
+awk '/^```toml$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >scene.toml
+test -s commands.sh
+test -s scene.toml
+bash -euxo pipefail commands.sh
+for picture in *.png; do test -s "$picture"; done
