@@ -14,5 +14,5 @@ here=$(dirname "$(realpath "$0")")
 cp "$here/bunny.toml" "$out/bunny.toml"
 "$vdbounce" collide "$out/bunny.toml"
 "$vdbounce" render "$out/bunny.vdb" "$out/demo.0060.vdb" --ground 0 --view 0.35,0.30,1 --size 1600x1200 \
-    --particle-radius 0.016 --frame-min=-5.4,-0.6,-4.2 --frame-max 5.2,9.6,4.2 -o "$out/demo.png" --quiet
+    --particle-radius 0.014 --frame-min=-5.8,-1.2,-4.2 --frame-max 5.6,9.8,4.6 -o "$out/demo.png" --quiet
 echo "demo done: $particles particles poured over the bunny; picture: $out/demo.png, frames: $out/demo.####.vdb"

@@ -27,12 +27,12 @@ constexpr double kOpennessReachVx = 3.0;
 constexpr double kFloorFade = 1.1; // the floor fades into the background within this many frame sizes
 
 const Colour kSolidAlbedo = toLinear(Colour(0.86f, 0.83f, 0.78f));
-const Colour kFloorAlbedo = toLinear(Colour(0.80f, 0.81f, 0.83f));
+const Colour kFloorAlbedo = toLinear(Colour(0.66f, 0.68f, 0.71f));
 const Colour kKeyLight(2.30f, 2.15f, 1.95f);
 const Colour kSkyLight(0.62f, 0.70f, 0.82f);
 const Colour kFloorLight(0.30f, 0.28f, 0.26f);
 const Colour kBackgroundTop = toLinear(Colour(0.56f, 0.63f, 0.71f));
-const Colour kBackgroundBottom = toLinear(Colour(0.86f, 0.88f, 0.90f));
+const Colour kBackgroundBottom = toLinear(Colour(0.78f, 0.81f, 0.84f));
 
 void validate(const PictureOptions& options)
 {
