@@ -147,6 +147,24 @@ TEST_CASE("each sign method does what it says")
     }
 }
 
+TEST_CASE("faces that disagree are signed by parity, and small holes change nothing")
+{
+    TriangleMesh shuffled = sphereMesh(1.0, 3);
+    for (std::size_t t = 0; t < shuffled.triangles.size(); t += 2)
+        std::swap(shuffled.triangles[t][1], shuffled.triangles[t][2]);
+    const auto byParity = meshToLevelSet(shuffled, withVoxel(0.1));
+    CHECK(byParity.sign == SignMethod::Parity);
+    CHECK(phiAt(byParity, Vec3d(0, 0.8, 0)) < 0);
+    CHECK(phiAt(byParity, Vec3d(0, 1.2, 0)) > 0);
+
+    TriangleMesh torn = sphereMesh(1.0, 4);
+    torn.triangles.erase(torn.triangles.begin() + 100);
+    torn.triangles.erase(torn.triangles.begin() + 777);
+    const auto result = meshToLevelSet(torn, withVoxel(0.03));
+    const VerifyReport report = verifyLevelSet(result.grid, sphereMesh(1.0, 4), 0.0, {1000000});
+    CHECK(report.signErrors <= 40); // of the voxels in the two holes
+}
+
 TEST_CASE("an open mesh is converted with a warning, and a sheet has its thickness")
 {
     TriangleMesh bowl = sphereMesh(1.0, 3);

@@ -4,8 +4,8 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/build/band_leaves.h"
+#include "vdbounce/build/inside.h"
 #include "vdbounce/build/mesh_tree.h"
-#include "vdbounce/build/space_regions.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/openvdb_grid.h"
 #include "vdbounce/io/vdb_archive.h"
@@ -14,17 +14,13 @@
 #include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kRegionsPerTask = 16;
 constexpr std::size_t kLeavesPerTask = 4;
-
-using Inside = std::vector<std::array<bool, BandLeaf::kVoxels>>;
 
 void validate(const MeshToLevelSetOptions& options)
 {
@@ -39,48 +35,6 @@ void validate(const MeshToLevelSetOptions& options)
             "give at least 1 voxel");
     require(options.thicknessVx > 0.0 && options.thicknessVx < 1e6, "thickness", options.thicknessVx,
             "give a positive number of voxels");
-}
-
-bool insideAt(const MeshTree& tree, SignMethod sign, const Vec3d& point)
-{
-    return sign == SignMethod::Parity ? tree.insideByParity(point) : tree.windingNumber(point) > 0.5;
-}
-
-// Asks once for each region. What flood leaves open, the slivers of voxels close to the mesh, winding decides.
-Inside insideByRegions(const std::vector<BandLeaf>& leaves, const MeshTree& tree, SignMethod sign, double voxelSize)
-{
-    const SpaceRegions space(leaves, voxelSize);
-    const auto& regions = space.regions();
-    std::vector<char> regionInside(regions.size());
-    forEachIndex(regions.size(), kRegionsPerTask, [&](std::size_t r) {
-        const auto& region = regions[r];
-        if (sign == SignMethod::Flood && region.depth > voxelSize) {
-            regionInside[r] = region.outermost ? 0 : 1;
-        } else {
-            const Vec3d point = leaves[region.deepestLeaf].voxel(region.deepestVoxel).cast<double>() * voxelSize;
-            regionInside[r] = insideAt(tree, sign, point) ? 1 : 0;
-        }
-    });
-    Inside inside(leaves.size());
-    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf) {
-        for (int v = 0; v < BandLeaf::kVoxels; ++v)
-            inside[leaf][std::size_t(v)] = regionInside[space.regionOf(leaf, v)] != 0;
-    }
-    return inside;
-}
-
-// Through a hole inside and outside are one region, so every voxel is asked for itself.
-Inside insideByVoxels(const std::vector<BandLeaf>& leaves, const MeshTree& tree, SignMethod sign, double voxelSize,
-                      Progress& progress)
-{
-    Inside inside(leaves.size());
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t leaf) {
-        throwIfStopped(progress);
-        for (int v = 0; v < BandLeaf::kVoxels; ++v) {
-            inside[leaf][std::size_t(v)] = insideAt(tree, sign, leaves[leaf].voxel(v).cast<double>() * voxelSize);
-        }
-    });
-    return inside;
 }
 
 struct Band {
@@ -116,6 +70,19 @@ openvdb::FloatGrid::Ptr assemble(const std::vector<BandLeaf>& leaves, const Band
     return grid;
 }
 
+InsideTest insideTest(SignMethod sign)
+{
+    if (sign == SignMethod::Parity) return InsideTest::Parity;
+    return sign == SignMethod::Flood ? InsideTest::Flood : InsideTest::Winding;
+}
+
+// Winding needs faces that agree on which way is out, parity needs a surface without holes.
+SignMethod chosenMethod(const EdgeReport& edges, SignMethod asked)
+{
+    if (asked != SignMethod::Auto) return asked;
+    return edges.inconsistent > 0 && edges.open == 0 ? SignMethod::Parity : SignMethod::Winding;
+}
+
 std::vector<std::string> warnAboutEdges(const EdgeReport& edges, SignMethod sign)
 {
     std::vector<std::string> warnings;
@@ -125,8 +92,9 @@ std::vector<std::string> warnAboutEdges(const EdgeReport& edges, SignMethod sign
                            " method's guess, and phi jumps there; close the mesh, or use --sign unsigned for a sheet");
     }
     if (edges.inconsistent > 0) {
-        warnings.push_back(std::to_string(edges.inconsistent) +
-                           " edges join triangles that face opposite ways; orient the mesh or try --sign parity");
+        const std::string found = std::to_string(edges.inconsistent) + " edges join triangles that face opposite ways";
+        warnings.push_back(found + (sign == SignMethod::Parity ? ": inside is told by parity, which does not ask them"
+                                                               : "; orient the mesh or try --sign parity"));
     }
     if (edges.nonManifold > 0)
         warnings.push_back(std::to_string(edges.nonManifold) + " edges have three triangles or more");
@@ -153,9 +121,7 @@ openvdb::FloatGrid::Ptr makeSolid(const TriangleMesh& mesh, const EdgeReport& ed
     const auto leaves = measureBandLeaves(mesh, options.voxelSize, reach, progress);
     const MeshTree tree(mesh);
     throwIfStopped(progress);
-    const Inside inside = edges.open == 0 || sign == SignMethod::Flood
-                              ? insideByRegions(leaves, tree, sign, options.voxelSize)
-                              : insideByVoxels(leaves, tree, sign, options.voxelSize, progress);
+    const InsideFlags inside = findInside(leaves, tree, insideTest(sign), edges.open == 0, options.voxelSize, progress);
     auto grid = assemble(leaves, band, options, [&](std::size_t leaf, int v) {
         const float distance = leaves[leaf].distance[std::size_t(v)];
         return inside[leaf][std::size_t(v)] ? -distance : distance;
@@ -183,8 +149,8 @@ MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelS
     validate(options);
     initializeOpenVdb();
     MeshToLevelSetResult result;
-    result.sign = options.sign == SignMethod::Auto ? SignMethod::Winding : options.sign;
     const EdgeReport edges = inspectEdges(mesh);
+    result.sign = chosenMethod(edges, options.sign);
     openvdb::FloatGrid::Ptr grid;
     if (result.sign == SignMethod::Unsigned) {
         grid = makeSheet(mesh, options, progress);

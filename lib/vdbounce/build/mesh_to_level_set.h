@@ -13,7 +13,7 @@ namespace vdbounce {
 
 /// How inside is told from outside.
 enum class SignMethod {
-    Auto,     ///< winding number; a warning where the mesh does not make that certain
+    Auto,     ///< winding, or parity for a closed mesh whose faces disagree; a warning where neither is certain
     Winding,  ///< inside where the mesh winds around a point more than half; right for overlapping parts
     Parity,   ///< inside where rays cross the mesh an odd number of times; does not need consistent faces
     Flood,    ///< outside is what can be reached from far away, so cavities are filled
@@ -39,9 +39,9 @@ struct MeshToLevelSetResult {
 /// Makes a narrow-band level set from a triangle mesh.
 ///
 /// Guarantee: every active voxel holds the distance to the mesh that a double-precision closest point gives, rounded to
-/// float; nothing is renormalised afterwards. Signs are the chosen method's, found once for each connected region of
-/// space between the triangles where the mesh is closed, and voxel by voxel where it is open. The grid's transform is a
-/// uniform scale, voxel centres lie at multiples of the voxel size. The same bits for any number of threads.
+/// float; nothing is renormalised afterwards. Signs are the chosen method's, asked once for each connected region of
+/// space between the triangles; voxel by voxel where a region leaks through a hole of the mesh. The grid's transform is
+/// a uniform scale, voxel centres lie at multiples of the voxel size. The same bits for any number of threads.
 ///
 /// Throws UsageError for options out of range, InputError for a mesh too large for the voxel size, Interrupted.
 /// Cost: about (triangles that reach a leaf) x 512 distances for each leaf of the band.

@@ -53,6 +53,8 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
 {
     const openvdb::FloatGrid& grid = toOpenVdb(handle);
     const MeshTree tree(mesh);
+    // Where faces disagree on which way is out, winding means nothing and crossings still count.
+    const bool byParity = inspectEdges(mesh).inconsistent > 0;
     const std::vector<VoxelSample> samples = spreadSamples(grid, options.samples);
     const bool sheet = offset > 0.0;
     // A voxel that float rounding places on the surface has no side to be wrong about.
@@ -66,7 +68,9 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
             part.largest = std::max(part.largest, error);
             part.squares += error * error;
             if (sheet || distance < onSurface) continue;
-            if ((tree.windingNumber(samples[i].world) > 0.5) != (samples[i].phi < 0.0)) ++part.signs;
+            const Vec3d& p = samples[i].world;
+            const bool inside = byParity ? tree.insideByParity(p) : tree.windingNumber(p) > 0.5;
+            if (inside != (samples[i].phi < 0.0)) ++part.signs;
         }
         return part;
     });

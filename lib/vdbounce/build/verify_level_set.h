@@ -17,7 +17,7 @@ struct VerifyReport {
     std::uint64_t samples = 0;
     double maxErrorVx = 0.0;      ///< largest | |phi| - distance |, voxels
     double rmsErrorVx = 0.0;      ///< root mean square of it, voxels
-    std::uint64_t signErrors = 0; ///< voxels on the wrong side by winding number; only meaningful for closed meshes
+    std::uint64_t signErrors = 0; ///< voxels on the wrong side by winding number, or by parity where faces disagree
 };
 
 /// Compares active voxels with the exact distance to the mesh (a search tree in double precision, independent of how
