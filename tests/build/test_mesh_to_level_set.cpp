@@ -165,6 +165,34 @@ TEST_CASE("faces that disagree are signed by parity, and small holes change noth
     CHECK(report.signErrors <= 40); // of the voxels in the two holes
 }
 
+TEST_CASE("a mesh that is inside out is solid all the same")
+{
+    const TriangleMesh box = flipped(boxMesh(Vec3d(0.5, 0.5, 0.5)));
+    const auto result = meshToLevelSet(box, withVoxel(0.1));
+    CHECK(phiAt(result, Vec3d::Zero()) < 0);
+    CHECK(phiAt(result, Vec3d(0.7, 0, 0)) > 0);
+    CHECK(verifyLevelSet(result.grid, box, 0.0).signErrors == 0);
+}
+
+TEST_CASE("an open box does not leak its inside into the space around")
+{
+    TriangleMesh open = boxMesh(Vec3d(0.5, 0.5, 0.5));
+    open.triangles.resize(10);
+    const auto result = meshToLevelSet(open, withVoxel(0.05));
+    for (double y : {-3.0, 0.0, 3.0}) {
+        for (double x : {-3.0, 0.9, 3.0}) CHECK(phiAt(result, Vec3d(x, y, 0.9)) > 0);
+    }
+    CHECK(phiAt(result, Vec3d(0, 0, -0.3)) < 0);
+}
+
+TEST_CASE("what would not fit in memory is refused before any of it is taken")
+{
+    CHECK_THROWS_WITH(meshToLevelSet(boxMesh(Vec3d(1, 1, 1)), withVoxel(5e-5)), Catch::Contains("would take about"));
+    const TriangleMesh stray =
+        joined(boxMesh(Vec3d(0.1, 0.1, 0.1)), boxMesh(Vec3d(0.1, 0.1, 0.1), Vec3d::Constant(300)));
+    CHECK_THROWS_WITH(meshToLevelSet(stray, withVoxel(0.005)), Catch::Contains("would take about"));
+}
+
 TEST_CASE("an open mesh is converted with a warning, and a sheet has its thickness")
 {
     TriangleMesh bowl = sphereMesh(1.0, 3);
@@ -221,5 +249,5 @@ TEST_CASE("options out of range are refused by name")
     MeshToLevelSetOptions thin = withVoxel(0.1);
     thin.interiorVx = 0.5;
     CHECK_THROWS_WITH(meshToLevelSet(mesh, thin), Catch::Contains("interior"));
-    CHECK_THROWS_AS(meshToLevelSet(mesh, withVoxel(1e-12)), UsageError);
+    CHECK_THROWS_WITH(meshToLevelSet(mesh, withVoxel(1e-6)), Catch::Contains("1.5e-5"));
 }

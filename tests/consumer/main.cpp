@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The README's example for developers, as a program of its own: a mesh becomes a field, particles bounce off it.
+#include <iostream>
 #include <vdbounce/build/mesh_to_level_set.h>
 #include <vdbounce/contact/particle_pass.h>
 #include <vdbounce/field/distance_field.h>
 #include <vdbounce/io/mesh_file.h>
-
-#include <iostream>
 
 int main(int argc, char** argv)
 {
@@ -20,7 +19,8 @@ int main(int argc, char** argv)
     particles.resize(1000);
     for (std::size_t i = 0; i < particles.size(); ++i) particles.position[i] = {0.005 * double(i) - 2.5, 10.0, 0.0};
     particles.ensureVelocity();
-    const auto report = vdbounce::advanceParticles(particles, colliders, vdbounce::StepOptions{}, {/*radius=*/0.05}, 400);
+    const auto report =
+        vdbounce::advanceParticles(particles, colliders, vdbounce::StepOptions{}, {/*radius=*/0.05}, 400);
 
     for (const vdbounce::Vec3d& p : particles.position) {
         if (!(field->phi(p) >= 0.05)) return 1;

@@ -293,3 +293,85 @@ TEST_CASE("a pass has the same bits for any number of threads and any split into
     CHECK(parts.position == whole.position);
     CHECK(parts.velocity == whole.velocity);
 }
+
+TEST_CASE("a fast particle that starts slightly inside a plate does not pass through it")
+{
+    const Phi plate = [](const Vec3d& p) { return std::abs(p.y()) - 0.1; };
+    const ColliderSet colliders(
+        {{"plate", std::make_shared<const DistanceField>(levelSet(bandGrid(plate, uniformTransform(0.05), 20))), 0.5,
+          0.2}});
+    StepOptions options;
+    for (double speed : {1.0, 10.0, 100.0, 1e4}) {
+        MovingParticle particle = placed(Vec3d(0, 0.0999, 0), Vec3d(0, -speed, 0), colliders);
+        REQUIRE(particle.inside);
+        StepTally tally(1);
+        for (int s = 0; s < 50; ++s) step(particle, colliders, options, tally);
+        CHECK(particle.position.y() > 0.09);
+    }
+}
+
+TEST_CASE("angular impulse is that of the point of contact, also for fast particles")
+{
+    const Phi plate = [](const Vec3d& p) { return std::abs(p.y()) - 0.1; };
+    const ColliderSet colliders(
+        {{"plate", std::make_shared<const DistanceField>(levelSet(bandGrid(plate, uniformTransform(0.05), 60))), 0.3,
+          0.0}});
+    StepOptions options;
+    options.gravity = Vec3d::Zero();
+    StepTally tally(1);
+    MovingParticle straight = placed(Vec3d(0.5, 1, 0), Vec3d(0, -1000, 0), colliders);
+    MovingParticle oblique = placed(Vec3d(0.5, 1, 0), Vec3d(1000, -1000, 0), colliders);
+    step(straight, colliders, options, tally);
+    step(oblique, colliders, options, tally);
+    CHECK(tally.impulse[0].y() == Approx(-2600));
+    CHECK(tally.angularImpulse[0].z() == Approx(-1300 * 0.5 - 1300 * 1.4).epsilon(0.002));
+}
+
+TEST_CASE("speeds without any sense end the step and not the run")
+{
+    std::vector<Collider> list = {
+        {"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
+         0.5, 0.3}};
+    list.push_back({"floor", PlaneField(Vec3d::Zero(), kUp), 0.5, 0.3});
+    const ColliderSet colliders(std::move(list));
+    StepOptions options;
+    options.gravity = Vec3d::Zero();
+    for (double speed : {1e8, 1e17, 1e100, 1e200, 1e308}) {
+        MovingParticle particle = placed(Vec3d(5, 1e-4, 0), Vec3d(speed, 0, speed), colliders);
+        StepTally tally(2);
+        for (int s = 0; s < 3; ++s) step(particle, colliders, options, tally);
+        CHECK(particle.position.allFinite());
+    }
+}
+
+TEST_CASE("an empty level set is nowhere")
+{
+    auto grid = openvdb::FloatGrid::create(0.3f);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    const ColliderSet colliders({{"nothing", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
+    StepOptions options;
+    MovingParticle particle = placed(Vec3d(0, 5, 0), Vec3d::Zero(), colliders, 0.5);
+    StepTally tally(1);
+    for (int s = 0; s < 100; ++s) step(particle, colliders, options, tally);
+    CHECK(tally.unresolved == 0);
+    CHECK(particle.position.y() < 5.0);
+}
+
+TEST_CASE("a jump between tiles is not missed by the clearance")
+{
+    auto grid = openvdb::FloatGrid::create(0.3f);
+    grid->setTransform(uniformTransform(0.1));
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->fill(openvdb::CoordBBox(openvdb::Coord(-32), openvdb::Coord(31)), 0.3f, true);
+    grid->fill(openvdb::CoordBBox(openvdb::Coord(-16), openvdb::Coord(15)), -0.3f, true);
+    grid->tree().prune();
+    const ColliderSet colliders({{"block", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
+    StepOptions options;
+    MovingParticle particle = placed(Vec3d(0, 1.61, 0), Vec3d(0, -20, 0), colliders);
+    REQUIRE_FALSE(particle.inside);
+    StepTally tally(1);
+    for (int s = 0; s < 20; ++s) {
+        step(particle, colliders, options, tally);
+        REQUIRE(colliders.probe(particle.position, 0.0).gap >= 0.0);
+    }
+}

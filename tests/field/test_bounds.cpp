@@ -109,3 +109,21 @@ TEST_CASE("a plane is exact everywhere")
     CHECK(plane.sample(Vec3d(5, -4, 3)).gradient == Vec3d(0, 1, 0));
     CHECK(plane.bounds(Vec3d(0, 0, 0)).lower == -1.0);
 }
+
+TEST_CASE("bounds hold where the band inside is thinner than the one outside")
+{
+    VDBOUNCE_RANDOM(random);
+    auto grid = bandGrid(sphere(1.0), uniformTransform(0.05), 30, 5.0);
+    for (auto voxel = grid->beginValueAll(); voxel; ++voxel) {
+        if (*voxel > -0.1f) continue;
+        voxel.setValue(-0.1f);
+        voxel.setValueOff();
+    }
+    const DistanceField field(levelSet(grid));
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3d p = random.uniform(0, 1.4) * random.direction();
+        const Interval bounds = field.bounds(p);
+        REQUIRE(bounds.lower <= p.norm() - 1.0 + 1e-6);
+        REQUIRE(bounds.upper >= p.norm() - 1.0 - 1e-6);
+    }
+}

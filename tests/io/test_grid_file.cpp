@@ -100,3 +100,17 @@ TEST_CASE("voxels that are not finite are refused with their place")
     CHECK_THROWS_WITH(DistanceField(levelSet(grid)),
                       Catch::Contains("'ball'") && Catch::Contains("(10, 1, 2)") && Catch::Contains("nan"));
 }
+
+TEST_CASE("grids that share a name are told apart")
+{
+    const TemporaryFolder folder;
+    const auto velocity = openvdb::Vec3SGrid::create();
+    const auto ball = bandGrid(sphere(1.0), uniformTransform(0.1), 16);
+    velocity->setName("a");
+    ball->setName("a");
+    openvdb::io::File(folder / "two.vdb").write(openvdb::GridPtrVec{velocity, ball});
+    CHECK(summarize(readLevelSet(folder / "two.vdb")).activeVoxels == ball->activeVoxelCount());
+    CHECK(listGrids(folder / "two.vdb").size() == 2);
+    CHECK(readLevelSet(folder / "two.vdb", listGrids(folder / "two.vdb")[1].name).holder().grid->activeVoxelCount() >
+          0);
+}

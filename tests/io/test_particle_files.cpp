@@ -71,7 +71,8 @@ TEST_CASE("csv takes columns in any order, passes unknown ones over and numbers 
 {
     const TemporaryFolder folder;
     const Particles particles =
-        readParticles(folder.write("a.csv", "colour, z ,y,x\r\nred,3,2,1\r\n\r\nblue,6,5,4\r\n"));
+        readParticles(folder.write("a.csv", "\xEF\xBB\xBF"
+                                            "colour, z ,y,x\r\nred,3,2,1\r\n\r\nblue,6,5,4\r\n"));
     REQUIRE(particles.size() == 2);
     CHECK(particles.position[1] == Vec3d(4, 5, 6));
     CHECK(particles.id == std::vector<std::int64_t>{0, 1});
@@ -126,7 +127,7 @@ TEST_CASE("few, equal, far and absent particles can be written as OpenVDB points
 {
     const TemporaryFolder folder;
     for (std::size_t count : {0u, 1u, 2u, 100u}) {
-        for (double at : {0.0, 1e-30, 3.0, 1e12}) {
+        for (double at : {0.0, 1e-30, 3.0, 1e12, 1e30}) {
             INFO(count << " particles at " << at);
             Particles particles;
             particles.resize(count);
@@ -204,4 +205,15 @@ TEST_CASE("a broken particle file is refused with its place")
         CHECK_THROWS_AS(readParticles(path), InputError);
         CHECK_THROWS_WITH(readParticles(path), Catch::Contains(folder / c.place) && Catch::Contains(c.what));
     }
+}
+
+TEST_CASE("a cloud smaller than OpenVDB's smallest voxel can be written")
+{
+    VDBOUNCE_RANDOM(random);
+    Particles particles;
+    particles.resize(100000);
+    for (Vec3d& p : particles.position) p = random.in(Box{Vec3d::Zero(), Vec3d::Constant(1e-4)});
+    const TemporaryFolder folder;
+    writeParticles(particles, folder / "a.vdb");
+    CHECK(readParticles(folder / "a.vdb").size() == 100000);
 }

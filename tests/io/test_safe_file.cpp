@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <sys/stat.h>
+
 using namespace vdbounce;
 using test::TemporaryFolder;
 
@@ -49,4 +51,19 @@ TEST_CASE("a place that cannot be written to is named")
     CHECK_THROWS_WITH(SafeFile(folder / "no/such/a.txt"),
                       Catch::Contains("no/such/a.txt") && Catch::Contains("cannot create"));
     CHECK_THROWS_AS(SafeFile(folder / ""), RunError);
+}
+
+TEST_CASE("a pipe is refused and left as it is, a link is followed")
+{
+    const TemporaryFolder folder;
+    REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+    CHECK_THROWS_WITH(SafeFile(folder / "pipe"), Catch::Contains("no regular file"));
+    CHECK(std::filesystem::is_fifo(folder / "pipe"));
+
+    folder.write("real.txt", "older");
+    std::filesystem::create_symlink("real.txt", folder / "link.txt");
+    writeTextFile(folder / "link.txt", "newer");
+    CHECK(std::filesystem::is_symlink(folder / "link.txt"));
+    CHECK(test::readFile(folder / "real.txt") == "newer");
+    CHECK(folder.fileCount() == 3);
 }

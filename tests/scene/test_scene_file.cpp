@@ -143,4 +143,6 @@ TEST_CASE("frame numbers fill the run of #")
     CHECK(framePath("out.##.vdb", 1234) == "out.1234.vdb");
     CHECK(framePath("a#/out.###.vdb", 5) == "a#/out.005.vdb");
     CHECK(framePath("out.vdb", 7) == "out.vdb");
+    CHECK(framePath("take#2/out.vdb", 7) == "take#2/out.vdb");
+    CHECK_FALSE(hasFramePattern("take#2/out.vdb"));
 }

@@ -75,7 +75,10 @@ void verify(const Mesh2lsArguments& arguments, const TriangleMesh& mesh, const M
             const MeshToLevelSetOptions& options, Json& json, std::string& text)
 {
     const double offset = result.sign == SignMethod::Unsigned ? 0.5 * options.thicknessVx * options.voxelSize : 0.0;
-    const VerifyReport report = verifyLevelSet(result.grid, mesh, offset);
+    VerifyOptions verifyOptions;
+    verifyOptions.sign = result.sign;
+    verifyOptions.half = arguments.half;
+    const VerifyReport report = verifyLevelSet(result.grid, mesh, offset, verifyOptions);
     json["verify"] = {{"samples", report.samples},
                       {"max_error_vx", report.maxErrorVx},
                       {"rms_error_vx", report.rmsErrorVx},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_values.h"
+#include "progress_bar.h"
 #include "report.h"
 
 #include "vdbounce/base/error.h"
@@ -62,7 +63,8 @@ void runRender(const RenderArguments& arguments, const CommonOptions& common)
     if (arguments.frameMin.has_value() != arguments.frameMax.has_value())
         throw UsageError("--frame-min, --frame-max", "only one is given", "give both or none");
     if (arguments.frameMin) options.frame = Box{*arguments.frameMin, *arguments.frameMax};
-    const RgbImage image = renderPicture(fields, particles, options);
+    ProgressBar progress(common, "render");
+    const RgbImage image = renderPicture(fields, particles, options, progress);
     writePng(image, arguments.output);
     report(common,
            {{"output", arguments.output},

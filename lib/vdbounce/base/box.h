@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/vector.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace vdbounce {
@@ -33,6 +34,25 @@ struct Box {
 inline double distanceSquared(const Box& box, const Vec3d& p)
 {
     return (p - p.cwiseMax(box.min).cwiseMin(box.max)).squaredNorm();
+}
+
+/// A stretch of a ray, in multiples of its direction; empty when it ends before it begins.
+struct Span {
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// The part of `span` in which origin + t direction lies in the box.
+inline Span clipToBox(const Box& box, const Vec3d& origin, const Vec3d& direction, Span span)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const double t0 = (box.min[axis] - origin[axis]) / direction[axis];
+        const double t1 = (box.max[axis] - origin[axis]) / direction[axis];
+        // NaN, of a ray within a side's plane, leaves the span as it is.
+        if (std::min(t0, t1) > span.begin) span.begin = std::min(t0, t1);
+        if (std::max(t0, t1) < span.end) span.end = std::max(t0, t1);
+    }
+    return span;
 }
 
 } // namespace vdbounce

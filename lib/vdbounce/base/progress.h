@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <mutex>
 
 namespace vdbounce {
 
@@ -19,6 +21,22 @@ public:
 
     /// A progress that ignores everything, for callers that do not care.
     static Progress& none();
+};
+
+/// Counts finished units from any number of threads and tells a Progress, from whichever thread finds nobody else
+/// telling.
+class ProgressCounter {
+public:
+    ProgressCounter(Progress& progress, std::uint64_t total) : progress_(progress), total_(total) {}
+
+    /// Throws Interrupted when the work should stop.
+    void add(std::uint64_t count);
+
+private:
+    Progress& progress_;
+    const std::uint64_t total_;
+    std::atomic<std::uint64_t> done_{0};
+    std::mutex telling_;
 };
 
 /// Throws Interrupted when `progress` asks to stop.

@@ -5,6 +5,7 @@
 #include "vdbounce/build/space_regions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vdbounce {
 namespace {
@@ -33,14 +34,16 @@ public:
             throwIfStopped(progress);
             sides_[region] = sideOf(region);
         });
-        InsideFlags inside(leaves_.size());
+        InsideFlags inside;
+        inside.voxels.resize(leaves_.size());
         forEachIndex(leaves_.size(), kLeavesPerTask, [&](std::size_t leaf) {
             throwIfStopped(progress);
             for (int v = 0; v < BandLeaf::kVoxels; ++v) {
                 const Side side = sides_[space_.regionOf(leaf, v)];
-                inside[leaf][std::size_t(v)] = side == Side::Mixed ? isInside(leaf, v) : side == Side::Inside;
+                inside.voxels[leaf][std::size_t(v)] = side == Side::Mixed ? isInside(leaf, v) : side == Side::Inside;
             }
         });
+        findEmptyLeaves(inside.emptyLeaves, progress);
         return inside;
     }
 
@@ -50,10 +53,30 @@ private:
         int voxel;
     };
 
+    // In the order of the lattice.
+    void findEmptyLeaves(std::vector<Vec3i>& found, const Progress& progress) const
+    {
+        const auto& empty = space_.emptyLeaves();
+        std::vector<char> inside(empty.size());
+        forEachIndex(empty.size(), kRegionsPerTask, [&](std::size_t i) {
+            throwIfStopped(progress);
+            const Side side = sides_[empty[i].region];
+            const Vec3d middle = (empty[i].leaf.cast<double>() * BandLeaf::kSide + Vec3d::Constant(3.5)) * voxelSize_;
+            inside[i] = (side == Side::Mixed ? pointInside(middle) : side == Side::Inside) ? 1 : 0;
+        });
+        for (std::size_t i = 0; i < empty.size(); ++i) {
+            if (inside[i] != 0) found.push_back(empty[i].leaf);
+        }
+    }
+
     bool isInside(std::size_t leaf, int voxel) const
     {
-        const Vec3d point = leaves_[leaf].voxel(voxel).cast<double>() * voxelSize_;
-        return test_ == InsideTest::Parity ? tree_.insideByParity(point) : tree_.windingNumber(point) > 0.5;
+        return pointInside(leaves_[leaf].voxel(voxel).cast<double>() * voxelSize_);
+    }
+
+    bool pointInside(const Vec3d& point) const
+    {
+        return test_ == InsideTest::Parity ? tree_.insideByParity(point) : std::abs(tree_.windingNumber(point)) > 0.5;
     }
 
     Side sideOf(std::size_t number) const

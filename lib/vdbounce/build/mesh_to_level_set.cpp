@@ -11,7 +11,6 @@
 #include "vdbounce/io/vdb_archive.h"
 
 #include <openvdb/tools/Prune.h>
-#include <openvdb/tools/SignedFloodFill.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +19,8 @@
 namespace vdbounce {
 namespace {
 
+// OpenVDB refuses a scale whose determinant is below 3e-15.
+constexpr double kSmallestVoxel = 1.5e-5;
 constexpr std::size_t kLeavesPerTask = 4;
 
 void validate(const MeshToLevelSetOptions& options)
@@ -29,6 +30,8 @@ void validate(const MeshToLevelSetOptions& options)
     };
     require(options.voxelSize > 0.0 && std::isfinite(options.voxelSize), "voxel size", options.voxelSize,
             "give a positive length");
+    require(options.voxelSize >= kSmallestVoxel, "voxel size", options.voxelSize,
+            "OpenVDB's transforms hold no smaller voxels than 1.5e-5; scale the mesh up");
     require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx,
             "give at least 1 voxel");
     require(options.interiorVx >= 1.0 && options.interiorVx < 1e6, "interior band", options.interiorVx,
@@ -124,9 +127,12 @@ openvdb::FloatGrid::Ptr makeSolid(const TriangleMesh& mesh, const EdgeReport& ed
     const InsideFlags inside = findInside(leaves, tree, insideTest(sign), edges.open == 0, options.voxelSize, progress);
     auto grid = assemble(leaves, band, options, [&](std::size_t leaf, int v) {
         const float distance = leaves[leaf].distance[std::size_t(v)];
-        return inside[leaf][std::size_t(v)] ? -distance : distance;
+        return inside.voxels[leaf][std::size_t(v)] ? -distance : distance;
     });
-    openvdb::tools::signedFloodFillWithValues(grid->tree(), band.exterior, -band.interior);
+    for (const Vec3i& leaf : inside.emptyLeaves) {
+        const Vec3i origin = leaf * BandLeaf::kSide;
+        grid->tree().addTile(1, openvdb::Coord(origin.x(), origin.y(), origin.z()), -band.interior, /*active=*/false);
+    }
     return grid;
 }
 

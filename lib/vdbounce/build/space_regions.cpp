@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/space_regions.h"
 
+#include "vdbounce/base/error.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -53,6 +55,17 @@ public:
     }
     std::size_t cells() const { return leafAt_.size(); }
     const Vec3i& size() const { return size_; }
+    const Vec3i& low() const { return low_; }
+    template <class Body> void forEachEmpty(const Body& body) const
+    {
+        for (int x = 0; x < size_.x(); ++x) {
+            for (int y = 0; y < size_.y(); ++y) {
+                for (int z = 0; z < size_.z(); ++z) {
+                    if (leaf(Vec3i(x, y, z)) < 0) body(Vec3i(x, y, z));
+                }
+            }
+        }
+    }
     std::size_t cell(const Vec3i& at) const
     {
         return (std::size_t(at.x()) * std::size_t(size_.y()) + std::size_t(at.y())) * std::size_t(size_.z()) +
@@ -156,7 +169,14 @@ SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize
 {
     if (leaves.empty()) return;
     const LeafLattice lattice(leaves);
-    DisjointSets sets(label_.size() + lattice.cells());
+    const std::size_t elements = label_.size() + lattice.cells();
+    if (elements >= 0xffffffffu) {
+        throw InputError("mesh",
+                         "its band has " + std::to_string(leaves.size()) +
+                             " leaves of 8^3 voxels, more than can be told apart",
+                         "use larger voxels or a thinner band");
+    }
+    DisjointSets sets(elements);
     Joiner joiner(leaves, lattice, voxelSize, sets);
     joiner.run();
 
@@ -177,6 +197,10 @@ SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize
     // The lattice is wider than the leaves by one, so its corner is outside.
     const std::uint32_t outside = regionOfSet[sets.find(joiner.element(Vec3i::Zero()))];
     if (outside != kNone) regions_[outside].outermost = true;
+    lattice.forEachEmpty([&](const Vec3i& at) {
+        const std::uint32_t region = regionOfSet[sets.find(joiner.element(at))];
+        if (region != kNone && region != outside) emptyLeaves_.push_back({lattice.low() + at, region});
+    });
 }
 
 } // namespace vdbounce

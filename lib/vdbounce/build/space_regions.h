@@ -33,7 +33,16 @@ public:
         return label_[leaf * BandLeaf::kVoxels + std::size_t(voxel)];
     }
 
+    /// A leaf without any voxel in the band, between those that have.
+    struct EmptyLeaf {
+        Vec3i leaf;           ///< leaf coordinates
+        std::uint32_t region; ///< an index into regions()
+    };
+    /// Those that do not belong to the outermost region, which goes on forever.
+    const std::vector<EmptyLeaf>& emptyLeaves() const { return emptyLeaves_; }
+
 private:
+    std::vector<EmptyLeaf> emptyLeaves_;
     std::vector<Region> regions_;
     std::vector<std::uint32_t> label_;
 };

@@ -16,20 +16,28 @@ struct VoxelSample {
     double phi;
 };
 
-std::vector<VoxelSample> spreadSamples(const openvdb::FloatGrid& grid, std::uint64_t wanted)
+std::vector<VoxelSample> spreadSamples(const openvdb::FloatGrid& grid, const VerifyOptions& options)
 {
     const std::uint64_t active = grid.activeVoxelCount();
-    const std::uint64_t stride = std::max<std::uint64_t>(1, active / std::max<std::uint64_t>(1, wanted));
+    const std::uint64_t stride = std::max<std::uint64_t>(1, active / std::max<std::uint64_t>(1, options.samples));
     std::vector<VoxelSample> samples;
     std::uint64_t number = 0;
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
         for (auto voxel = leaf->cbeginValueOn(); voxel; ++voxel) {
             if (number++ % stride != 0) continue;
             const openvdb::Vec3d world = grid.indexToWorld(voxel.getCoord());
-            samples.push_back({Vec3d(world.x(), world.y(), world.z()), double(*voxel)});
+            samples.push_back({Vec3d(world.x(), world.y(), world.z()),
+                               double(options.half ? float(openvdb::math::half(*voxel)) : *voxel)});
         }
     }
     return samples;
+}
+
+bool signIsWrong(const MeshTree& tree, SignMethod sign, const Vec3d& p, double phi)
+{
+    const bool inside = sign == SignMethod::Parity ? tree.insideByParity(p) : std::abs(tree.windingNumber(p)) > 0.5;
+    // Flood also fills what only it calls inside.
+    return sign == SignMethod::Flood ? inside && !(phi < 0.0) : inside != (phi < 0.0);
 }
 
 struct Errors {
@@ -53,10 +61,8 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
 {
     const openvdb::FloatGrid& grid = toOpenVdb(handle);
     const MeshTree tree(mesh);
-    // Where faces disagree on which way is out, winding means nothing and crossings still count.
-    const bool byParity = inspectEdges(mesh).inconsistent > 0;
-    const std::vector<VoxelSample> samples = spreadSamples(grid, options.samples);
-    const bool sheet = offset > 0.0;
+    const std::vector<VoxelSample> samples = spreadSamples(grid, options);
+    const bool sheet = options.sign == SignMethod::Unsigned;
     // A voxel that float rounding places on the surface has no side to be wrong about.
     const double onSurface = 1e-6 * grid.voxelSize()[0];
     const Errors errors = reduceBlocks(samples.size(), 256, Errors{}, [&](IndexRange range) {
@@ -69,8 +75,7 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
             part.squares += error * error;
             if (sheet || distance < onSurface) continue;
             const Vec3d& p = samples[i].world;
-            const bool inside = byParity ? tree.insideByParity(p) : tree.windingNumber(p) > 0.5;
-            if (inside != (samples[i].phi < 0.0)) ++part.signs;
+            if (signIsWrong(tree, options.sign, p, samples[i].phi)) ++part.signs;
         }
         return part;
     });

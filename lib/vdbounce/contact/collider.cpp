@@ -11,6 +11,9 @@ namespace {
 // out.
 constexpr double kSmallestGradient = 1e-3;
 
+// The distance to a collider without a surface.
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
 struct FieldReach {
     double phi;
     double travel; // from here to phi = 0 at least, in units of phi
@@ -25,6 +28,7 @@ FieldReach reachOf(const PlaneField& plane, const Vec3d& position)
 
 FieldReach reachOf(const std::shared_ptr<const DistanceField>& field, const Vec3d& position)
 {
+    if (field->empty()) return {kNowhere, kNowhere, 1.0};
     const double phi = field->phi(position);
     return {phi, field->freeDistance(position, phi), field->lipschitz()};
 }

@@ -3,15 +3,15 @@
 
 #include "vdbounce/base/parallel.h"
 
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
 namespace vdbounce {
 namespace {
 
 // Particles a task: some tenths of a millisecond of work, and few enough that a thousand tasks share out evenly.
 constexpr std::size_t kParticlesPerBlock = 1024;
+
+constexpr int kStepsBetweenChecks = 4096; // about a millisecond of one particle's steps
 
 MovingParticle load(const Particles& particles, std::size_t i, const ParticleDefaults& defaults)
 {
@@ -28,25 +28,6 @@ bool canBeStepped(const MovingParticle& particle)
     return particle.position.allFinite() && particle.velocity.allFinite() && particle.radius >= 0.0 &&
            std::isfinite(particle.radius) && particle.mass > 0.0 && std::isfinite(particle.mass);
 }
-
-// Tells how many particles are done, from whichever thread finds nobody else telling.
-class DoneCounter {
-public:
-    DoneCounter(Progress& progress, std::uint64_t total) : progress_(progress), total_(total) {}
-
-    void add(std::uint64_t count)
-    {
-        const std::uint64_t done = done_ += count;
-        const std::unique_lock<std::mutex> lock(telling_, std::try_to_lock);
-        if (lock.owns_lock()) progress_.update(done, total_);
-    }
-
-private:
-    Progress& progress_;
-    const std::uint64_t total_;
-    std::atomic<std::uint64_t> done_{0};
-    std::mutex telling_;
-};
 
 struct Partial {
     StepTally tally;
@@ -65,7 +46,7 @@ struct Partial {
 PassReport advanceParticles(Particles& particles, const ColliderSet& colliders, const StepOptions& options,
                             const ParticleDefaults& defaults, int steps, Progress& progress)
 {
-    DoneCounter counter(progress, particles.size());
+    ProgressCounter counter(progress, particles.size());
     const Partial sum = reduceBlocks(particles.size(), kParticlesPerBlock, Partial{StepTally(colliders.size()), 0},
                                      [&](IndexRange range) {
                                          throwIfStopped(progress);

@@ -40,6 +40,7 @@ struct Touch {
     bool hasNormal = false;
     std::size_t collider = 0;
     Vec3d normal;
+    Vec3d centre;       // the particle's, where it touches
     double depth = 0.0; // at the end of the path; 0 where only the way there touched
 };
 
@@ -56,6 +57,12 @@ public:
     void run()
     {
         const double way = (candidate_ - start_).norm();
+        if (!std::isfinite(way)) {
+            // Faster than numbers go: nothing can be said about where it would be.
+            ++tally_.near;
+            ++tally_.unresolved;
+            return;
+        }
         if (way < particle_.clearance) {
             ++tally_.free;
             accept();
@@ -108,13 +115,17 @@ private:
             swept_ = true;
             const PathHit hit =
                 sweepPath(colliders_, start_, candidate_, particle_.radius, kSweepStepVx * shortLength());
-            touch.touching = hit.hit;
-            touch.collider = hit.collider;
-            if (hit.hit) touch.hasNormal = colliders_.normalAt(hit.collider, hit.position, touch.normal);
-            return touch;
+            if (hit.hit) {
+                touch.touching = true;
+                touch.collider = hit.collider;
+                touch.centre = hit.position;
+                touch.hasNormal = colliders_.normalAt(hit.collider, hit.position, touch.normal);
+                return touch;
+            }
         }
         touch.touching = probe_.gap < 0.0;
         touch.collider = probe_.collider;
+        touch.centre = candidate_;
         if (touch.touching) touch.hasNormal = colliders_.normalAt(probe_.collider, candidate_, touch.normal);
         return touch;
     }
@@ -142,7 +153,7 @@ private:
             const Collider& collider = colliders_[touch.collider];
             const Vec3d before = velocity_;
             velocity_ = respond(velocity_, touch.normal, collider.restitution, collider.friction);
-            react(touch.collider, velocity_ - before);
+            react(touch.collider, contactPoint(touch), velocity_ - before);
             makeCandidate();
             touch = look();
         }
@@ -157,7 +168,7 @@ private:
             const double friction = colliders_[touch.collider].friction;
             const bool approached = average.dot(touch.normal) < 0.0;
             average = respond(average, touch.normal, 0.0, friction);
-            answerEndVelocity(touch.collider, touch.normal, friction);
+            answerEndVelocity(touch.collider, contactPoint(touch), touch.normal, friction);
             // Nothing approaches any more and still it is inside: the surface curves. Only then is it moved out.
             if (!approached || i > 0) {
                 const double push = std::max((1.0 + kPushMargin) * touch.depth, kSmallestPushVx * shortLength());
@@ -169,11 +180,16 @@ private:
         return touch;
     }
 
-    void answerEndVelocity(std::size_t collider, const Vec3d& normal, double friction)
+    void answerEndVelocity(std::size_t collider, const Vec3d& at, const Vec3d& normal, double friction)
     {
         const Vec3d before = endVelocity_;
         endVelocity_ = respond(endVelocity_, normal, 0.0, friction);
-        react(collider, endVelocity_ - before);
+        react(collider, at, endVelocity_ - before);
+    }
+
+    Vec3d contactPoint(const Touch& touch) const
+    {
+        return touch.hasNormal ? Vec3d(touch.centre - particle_.radius * touch.normal) : touch.centre;
     }
 
     // A collider at rest does no work, but moving a particle out of a curved surface may lift it: what it gained in
@@ -186,23 +202,25 @@ private:
         if (allowed2 < 0.0) return false;
         const Vec3d before = endVelocity_;
         endVelocity_ *= std::sqrt(allowed2 / speed2);
-        react(collider, endVelocity_ - before);
+        react(collider, candidate_, endVelocity_ - before);
         return true;
     }
 
     // Started outside and could not be brought out again: back to where it was, at rest.
     void hold(std::size_t collider)
     {
-        react(collider, -endVelocity_);
+        react(collider, start_, -endVelocity_);
         endVelocity_ = Vec3d::Zero();
         candidate_ = start_;
         probe_ = colliders_.probe(candidate_, particle_.radius);
         ++tally_.unresolved;
     }
 
-    // Started inside: inelastic, and out by a share of the depth (lecture, slide 3: both ends penetrate).
+    // Started inside: what still moves in is answered first, so that it cannot pass through; what is left inside then
+    // is answered inelastically and moved out by a share of its depth (lecture, slide 3: both ends penetrate).
     void recover()
     {
+        turnBack();
         probe_ = colliders_.probe(candidate_, particle_.radius);
         if (!(probe_.gap < 0.0)) return;
         ++tally_.contacts;
@@ -210,24 +228,37 @@ private:
         Vec3d normal;
         if (!colliders_.normalAt(collider, candidate_, normal)) {
             // Too deep for the band to tell the way out: it must not sink deeper.
-            react(collider, -endVelocity_);
+            react(collider, start_, -endVelocity_);
             endVelocity_ = Vec3d::Zero();
             candidate_ = start_;
         } else {
             const double friction = colliders_[collider].friction;
             const Vec3d average = respond((candidate_ - start_) / options_.dt, normal, 0.0, friction);
-            answerEndVelocity(collider, normal, friction);
+            answerEndVelocity(collider, candidate_ - particle_.radius * normal, normal, friction);
             candidate_ = start_ + options_.dt * average + kRecovery * -probe_.gap * normal;
         }
         probe_ = colliders_.probe(candidate_, particle_.radius);
     }
 
-    // The particle's velocity changed by `change` through this collider, which takes the opposite impulse.
-    void react(std::size_t collider, const Vec3d& change)
+    // An inelastic answer of the velocity from the start of the step, with the normal there.
+    void turnBack()
+    {
+        const std::size_t collider = colliders_.probe(start_, particle_.radius).collider;
+        Vec3d normal;
+        if (!colliders_.normalAt(collider, start_, normal)) return;
+        const Vec3d before = velocity_;
+        velocity_ = respond(velocity_, normal, 0.0, colliders_[collider].friction);
+        react(collider, start_ - particle_.radius * normal, velocity_ - before);
+        makeCandidate();
+    }
+
+    // The particle's velocity changed by `change` through this collider, which takes, at the point `at`, the opposite
+    // impulse.
+    void react(std::size_t collider, const Vec3d& at, const Vec3d& change)
     {
         const Vec3d impulse = -particle_.mass * change;
         tally_.impulse[collider] += impulse;
-        tally_.angularImpulse[collider] += candidate_.cross(impulse);
+        tally_.angularImpulse[collider] += at.cross(impulse);
     }
 
     MovingParticle& particle_;

@@ -62,8 +62,8 @@ void settle(MovingParticle& particle, const ColliderSet& colliders);
 ///    moves the particle, x* = x + dt v_average; the end velocity v* is answered the same way. What is then left
 ///    inside, as on a curved surface, is moved out along the normal.
 ///
-/// Colliders at rest never add energy: what being moved out gains in height is taken from the speed.
-/// A particle that starts outside ends outside: one that cannot be resolved stays where it was, at rest, and is
+/// To a particle outside colliders at rest never add energy: what being moved out gains in height is taken from the
+/// speed. A particle that starts outside ends outside: one that cannot be resolved stays where it was, at rest, and is
 /// counted. One that starts inside is answered inelastically and moved out in proportion to its depth.
 /// Resting particles have v = 0 at the start of the step, so step 2 leaves them alone and step 3 keeps them exactly in
 /// place.

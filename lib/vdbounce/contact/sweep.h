@@ -15,10 +15,10 @@ struct PathHit {
 
 /// The first point at which a particle that moves from `from` to `to` gets a negative gap.
 ///
-/// Method: conservative advancement by the clearance at each point, which cannot pass a surface, but by at least
-/// `shortestStep` (world units), so that a path along a surface ends; then bisection between the last free point and
-/// the first that is not (lecture, slide 15: find a sign change, then close in on it). A dip into a collider that is
-/// shorter than `shortestStep` along the path may be passed over.
+/// `from` must be free. Method, for each collider within its box: conservative advancement by the clearance at each
+/// point, which cannot pass a surface, but by at least `shortestStep` (world units), so that a path along a surface
+/// ends; then bisection between the last free point and the first that is not (lecture, slide 15: find a sign change,
+/// then close in on it). A dip into a collider that is shorter than `shortestStep` along the path may be passed over.
 PathHit sweepPath(const ColliderSet& colliders, const Vec3d& from, const Vec3d& to, double radius, double shortestStep);
 
 } // namespace vdbounce

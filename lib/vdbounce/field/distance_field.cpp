@@ -23,6 +23,7 @@ DistanceField::DistanceField(const LevelSetGrid& grid)
     blocks_ = std::move(parts.blocks);
     indexBox_ = parts.indexBox;
     background_ = parts.background;
+    interior_ = parts.interior;
     lipschitz_ = lipschitzBound(blocks_, transform_);
     clipped_ = surfaceReachesBox();
 }
@@ -157,7 +158,7 @@ Interval DistanceField::boundsInBox(const Vec3d& index) const
         if (!indexBox_.contains(voxel.cast<double>())) continue;
         const float value = blocks_.valueAt(voxel);
         const double travelled = transform_.vectorToWorld(cell.at - offset.cast<double>()).norm();
-        if (value > -background_) bounds.lower = std::max(bounds.lower, value - travelled);
+        if (value > -interior_) bounds.lower = std::max(bounds.lower, value - travelled);
         if (value < background_) bounds.upper = std::min(bounds.upper, value + travelled);
     }
     return bounds;

@@ -99,6 +99,7 @@ private:
     LeafBlocks blocks_;
     Box indexBox_;
     float background_ = 0.0f;
+    float interior_ = 0.0f;
     double lipschitz_ = 1.0;
     bool clipped_ = false;
 };

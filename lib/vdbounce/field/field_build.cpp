@@ -7,6 +7,7 @@
 #include "vdbounce/io/openvdb_grid.h"
 
 #include <cmath>
+#include <limits>
 
 namespace vdbounce {
 namespace {
@@ -31,23 +32,24 @@ LinearTransform toLinearTransform(const openvdb::math::Transform& transform)
 
 Vec3i toVec3i(const Coord& c) { return Vec3i(c.x(), c.y(), c.z()); }
 
-void setTiles(const FloatGrid& grid, LeafBlocks& blocks)
-{
-    auto it = grid.cbeginValueAll();
-    it.setMaxDepth(FloatGrid::ValueAllCIter::LEAF_DEPTH - 1);
-    for (; it; ++it) {
-        if (*it == grid.background() && !it.isValueOn()) continue;
-        const openvdb::CoordBBox box = it.getBoundingBox();
-        blocks.setTiles(toVec3i(box.min()), toVec3i(box.max()), *it);
-    }
-}
-
 [[noreturn]] void refuseValue(const FloatGrid& grid, const Coord& voxel, float value)
 {
     throw InputError("grid '" + grid.getName() + "'",
                      "voxel (" + std::to_string(voxel.x()) + ", " + std::to_string(voxel.y()) + ", " +
                          std::to_string(voxel.z()) + ") holds " + numberText(double(value)),
                      "a level set's values are finite; write the grid again");
+}
+
+void setTiles(const FloatGrid& grid, LeafBlocks& blocks)
+{
+    auto it = grid.cbeginValueAll();
+    it.setMaxDepth(FloatGrid::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; it; ++it) {
+        if (*it == grid.background() && !it.isValueOn()) continue;
+        if (!std::isfinite(*it)) refuseValue(grid, it.getCoord(), *it);
+        const openvdb::CoordBBox box = it.getBoundingBox();
+        blocks.setTiles(toVec3i(box.min()), toVec3i(box.max()), *it);
+    }
 }
 
 // Copies a leaf with its halo. The accessor makes neighbouring leaves cheap to find.
@@ -68,6 +70,18 @@ void fillBlock(const FloatGrid& grid, FloatGrid::ConstAccessor& accessor, const 
     }
 }
 
+// The largest squared world length of an index-space gradient with |g_i| <= change_i. Convex, so it is at a corner.
+double steepestOf(const Vec3d& change, const LinearTransform& transform)
+{
+    double steepest = 0.0;
+    for (int signs = 0; signs < 4; ++signs) {
+        const Vec3d g(change.x(), (signs & 1) != 0 ? -change.y() : change.y(),
+                      (signs & 2) != 0 ? -change.z() : change.z());
+        steepest = std::max(steepest, transform.gradientToWorld(g).squaredNorm());
+    }
+    return steepest;
+}
+
 // The squared world length of the largest gradient in any cell that touches the block's voxels.
 double steepestCell(const float* block, const LinearTransform& transform)
 {
@@ -84,16 +98,21 @@ double steepestCell(const float* block, const LinearTransform& transform)
                 constexpr int kX = LeafBlocks::kStrideX;
                 constexpr int kY = LeafBlocks::kStrideY;
                 const Vec3d change(largest(kX, kY, 1), largest(kY, kX, 1), largest(1, kX, kY));
-                // Convex in the gradient, so its maximum over |g_i| <= change_i is at a corner of that box.
-                for (int signs = 0; signs < 4; ++signs) {
-                    const Vec3d g(change.x(), (signs & 1) != 0 ? -change.y() : change.y(),
-                                  (signs & 2) != 0 ? -change.z() : change.z());
-                    steepest = std::max(steepest, transform.gradientToWorld(g).squaredNorm());
-                }
+                steepest = std::max(steepest, steepestOf(change, transform));
             }
         }
     }
     return steepest;
+}
+
+// The smallest depth that an inactive voxel or tile inside claims: only that much is sure of any of them.
+float interiorClamp(const FloatGrid& grid)
+{
+    float clamp = std::numeric_limits<float>::infinity();
+    for (auto it = grid.cbeginValueOff(); it; ++it) {
+        if (*it < 0.0f) clamp = std::min(clamp, -*it);
+    }
+    return clamp;
 }
 
 } // namespace
@@ -112,6 +131,7 @@ FieldParts buildFieldParts(const LevelSetGrid& handle)
 
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) parts.blocks.addLeaf(toVec3i(leaf->origin()));
     setTiles(grid, parts.blocks);
+    parts.interior = interiorClamp(grid);
     parts.blocks.link();
     forEachBlock(parts.blocks.blockCount(), kLeavesPerTask, [&](std::size_t, IndexRange range) {
         auto accessor = grid.getConstAccessor();
@@ -130,7 +150,8 @@ double lipschitzBound(const LeafBlocks& blocks, const LinearTransform& transform
             steepest[task] = std::max(steepest[task], steepestCell(blocks.block(i), transform));
         }
     });
-    double largest = 1.0;
+    // Where tiles of different value meet there is no leaf, and the whole difference lies in one cell.
+    double largest = std::max(1.0, steepestOf(Vec3d::Constant(double(blocks.largestTileStep())), transform));
     for (double value : steepest) largest = std::max(largest, value);
     return std::sqrt(largest);
 }

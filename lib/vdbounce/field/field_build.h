@@ -14,6 +14,7 @@ struct FieldParts {
     LeafBlocks blocks;
     Box indexBox; ///< of the active voxels' centres; empty when there are none
     float background = 0.0f;
+    float interior = 0.0f; ///< what inactive voxels inside hold is -interior or less; infinite where there are none
 };
 
 /// Copies the grid's voxels into blocks, in parallel. Throws InputError for values that are not finite.

@@ -4,6 +4,7 @@
 #include "vdbounce/base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vdbounce {
 namespace {
@@ -174,10 +175,12 @@ void LeafBlocks::link()
     // Marks are the lowest bit of a code and every comparison ignores them, but nodes read each other's codes: so
     // all marks are found before any is set.
     std::vector<std::vector<std::size_t>> near(nodes_.size());
-    forEachIndex(nodes_.size(), 1, [&](std::size_t n) { near[n] = entriesNextToOthers(places[n]); });
+    std::vector<float> steps(nodes_.size());
+    forEachIndex(nodes_.size(), 1, [&](std::size_t n) { near[n] = entriesNextToOthers(places[n], steps[n]); });
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
         for (std::size_t entry : near[n]) nodes_[n].code[entry] = markedNear(nodes_[n].code[entry]);
     }
+    for (float step : steps) largestTileStep_ = std::max(largestTileStep_, step);
     values_.resize(origins_.size() * kBlockSize);
 }
 
@@ -214,7 +217,7 @@ bool LeafBlocks::borderIs(const Vec3i& place, const Vec3i& side, std::int32_t co
 }
 
 // The tiles of a node for which any of the 26 leaves around is a block or a tile of another value.
-std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place) const
+std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place, float& tileStep) const
 {
     constexpr int kSide = kNodeSide + 2;
     const Vec3i size = Vec3i::Constant(kSide);
@@ -230,8 +233,11 @@ std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place) con
         const std::int32_t code = window[flatIndex(at + Vec3i::Ones(), size)];
         if (code >= 0) return;
         bool differs = false;
-        for (int n = 0; n < 27 && !differs; ++n) {
-            differs = window[flatIndex(at + Vec3i(n / 9, n / 3 % 3, n % 3), size)] != code;
+        for (int n = 0; n < 27; ++n) {
+            const std::int32_t other = window[flatIndex(at + Vec3i(n / 9, n / 3 % 3, n % 3), size)];
+            if (other == code) continue;
+            differs = true;
+            if (other < 0) tileStep = std::max(tileStep, std::abs(tileValue(Entry(code)) - tileValue(Entry(other))));
         }
         if (differs) entries.push_back(entryInNode(at, kNodeSide));
     });

@@ -61,6 +61,9 @@ public:
     /// The value of any voxel in space.
     float valueAt(const Vec3i& voxel) const;
 
+    /// The largest difference between the values of two tiles that touch.
+    float largestTileStep() const { return largestTileStep_; }
+
     /// True when any voxel of the box [min, max] has a value below `limit`. Costs as much as the box has leaves in
     /// nodes.
     bool anyBelow(const Vec3i& min, const Vec3i& max, float limit) const;
@@ -100,7 +103,7 @@ private:
     std::int32_t tileCodeFor(float value);
     void touchNodesThatMeetOthers();
     bool borderIs(const Vec3i& place, const Vec3i& side, std::int32_t code) const;
-    std::vector<std::size_t> entriesNextToOthers(const Vec3i& place) const;
+    std::vector<std::size_t> entriesNextToOthers(const Vec3i& place, float& tileStep) const;
     void indexNodesDensely();
 
     // A node's number, or the code of the one tile that fills it. In a dense array over the nodes' box where that is
@@ -114,6 +117,7 @@ private:
     std::vector<Vec3i> origins_;
     std::vector<float> values_;
     std::vector<float> tileValues_;
+    float largestTileStep_ = 0.0f;
 };
 
 } // namespace vdbounce

@@ -41,20 +41,21 @@ std::string classText(const openvdb::GridBase& grid)
     return openvdb::GridBase::gridClassToString(grid.getGridClass());
 }
 
-GridEntry describe(const openvdb::GridBase& grid)
+GridEntry describe(const VdbGridHeader& header)
 {
+    const openvdb::GridBase& grid = *header.grid;
     GridEntry entry;
-    entry.name = grid.getName();
+    entry.name = header.uniqueName;
     entry.valueType = storedType(grid);
     entry.gridClass = classText(grid);
     entry.isPoints = grid.isType<openvdb::points::PointDataGrid>();
     return entry;
 }
 
-std::string listing(const openvdb::GridPtrVec& grids)
+std::string listing(const std::vector<VdbGridHeader>& headers)
 {
     std::string text;
-    for (const auto& grid : grids) {
+    for (const auto& [uniqueName, grid] : headers) {
         text +=
             (text.empty() ? "'" : ", '") + grid->getName() + "' (" + storedType(*grid) + ", " + classText(*grid) + ")";
     }
@@ -63,15 +64,15 @@ std::string listing(const openvdb::GridPtrVec& grids)
 
 // The grid of that name, or without one the first level set, or else the first grid of numbers (which is then
 // refused or accepted by what it is).
-openvdb::GridBase::Ptr choose(const openvdb::GridPtrVec& grids, const std::string& name)
+const VdbGridHeader* choose(const std::vector<VdbGridHeader>& headers, const std::string& name)
 {
-    openvdb::GridBase::Ptr candidate;
-    for (const auto& grid : grids) {
+    const VdbGridHeader* candidate = nullptr;
+    for (const VdbGridHeader& header : headers) {
         if (!name.empty()) {
-            if (grid->getName() == name) return grid;
-        } else if (holdsDistances(*grid)) {
-            if (grid->getGridClass() == openvdb::GRID_LEVEL_SET) return grid;
-            if (!candidate) candidate = grid;
+            if (header.uniqueName == name || header.grid->getName() == name) return &header;
+        } else if (holdsDistances(*header.grid)) {
+            if (header.grid->getGridClass() == openvdb::GRID_LEVEL_SET) return &header;
+            if (candidate == nullptr) candidate = &header;
         }
     }
     return candidate;
@@ -119,20 +120,20 @@ LevelSetGrid readLevelSet(const std::string& path, const std::string& gridName)
 {
     LevelSetGrid result;
     withVdbFile(path, [&](openvdb::io::File& file) {
-        const auto headers = file.readAllGridMetadata();
-        const auto chosen = choose(*headers, gridName);
-        if (!chosen) {
+        const std::vector<VdbGridHeader> headers = readVdbHeaders(file);
+        const VdbGridHeader* chosen = choose(headers, gridName);
+        if (chosen == nullptr) {
             throw InputError(path,
-                             gridName.empty() ? "holds no level set but " + listing(*headers)
-                                              : "holds no grid '" + gridName + "' but " + listing(*headers),
+                             gridName.empty() ? "holds no level set but " + listing(headers)
+                                              : "holds no grid '" + gridName + "' but " + listing(headers),
                              "name a file, or a grid in it, with signed distances");
         }
-        const std::string place = path + ": grid '" + chosen->getName() + "'";
-        if (!holdsDistances(*chosen)) {
-            throw InputError(place, "holds " + chosen->valueType() + ", not distances",
+        const std::string place = path + ": grid '" + chosen->uniqueName + "'";
+        if (!holdsDistances(*chosen->grid)) {
+            throw InputError(place, "holds " + chosen->grid->valueType() + ", not distances",
                              "name a grid of float or double");
         }
-        result = toLevelSetGrid(asFloatGrid(file.readGrid(chosen->getName())), place);
+        result = toLevelSetGrid(asFloatGrid(file.readGrid(chosen->uniqueName)), place);
     });
     return result;
 }
@@ -151,8 +152,7 @@ std::vector<GridEntry> listGrids(const std::string& path)
 {
     std::vector<GridEntry> entries;
     withVdbFile(path, [&](openvdb::io::File& file) {
-        const auto grids = file.readAllGridMetadata();
-        for (const auto& grid : *grids) entries.push_back(describe(*grid));
+        for (const VdbGridHeader& header : readVdbHeaders(file)) entries.push_back(describe(header));
     });
     return entries;
 }

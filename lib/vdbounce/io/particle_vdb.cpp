@@ -124,9 +124,8 @@ void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descripto
 
 Grid::Ptr findPoints(openvdb::io::File& file, const std::string& path)
 {
-    const auto headers = file.readAllGridMetadata();
-    for (const auto& header : *headers) {
-        if (header->isType<Grid>()) return openvdb::gridPtrCast<Grid>(file.readGrid(header->getName()));
+    for (const VdbGridHeader& header : readVdbHeaders(file)) {
+        if (header.grid->isType<Grid>()) return openvdb::gridPtrCast<Grid>(file.readGrid(header.uniqueName));
     }
     throw InputError(path, "holds no points", "name a .vdb file with an OpenVDB points grid");
 }

@@ -37,6 +37,22 @@ void untrack(const char* path)
     }
 }
 
+// The file that the name stands for, through links. Renaming over a device, a pipe or a folder would replace it by a
+// file.
+std::string targetOf(const std::string& path)
+{
+    namespace fs = std::filesystem;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        throw RunError(path, fs::is_directory(status) ? "is a directory" : "is no regular file and is left as it is",
+                       "name a file");
+    }
+    if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+    const fs::path target = fs::weakly_canonical(path, error);
+    return error ? path : target.string();
+}
+
 std::string temporaryNameFor(const std::string& path)
 {
     static std::atomic<unsigned> counter{0};
@@ -48,12 +64,8 @@ constexpr mode_t kFileMode = 0666;
 
 } // namespace
 
-SafeFile::SafeFile(std::string path) : path_(std::move(path)), temporaryPath_(temporaryNameFor(path_))
+SafeFile::SafeFile(std::string path) : path_(targetOf(path)), temporaryPath_(temporaryNameFor(path_))
 {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path_, ignored)) {
-        throw RunError(path_, "is a directory", "name a file");
-    }
     descriptor_ = ::open(temporaryPath_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kFileMode);
     if (descriptor_ < 0) fail("cannot create the file");
     track(temporaryPath_.c_str());

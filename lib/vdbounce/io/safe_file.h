@@ -9,6 +9,7 @@ namespace vdbounce {
 /// then renamed over it by commit(). Destroyed without commit(), it leaves nothing behind and an older file
 /// of that name as it was.
 ///
+/// Only regular files are ever replaced: a device, pipe or folder of that name is refused, a link is followed.
 /// Throws RunError where the place cannot be written to, naming the file and the system's reason.
 class SafeFile {
 public:

@@ -85,6 +85,15 @@ void withVdbFile(const std::string& path, const std::function<void(openvdb::io::
     }
 }
 
+std::vector<VdbGridHeader> readVdbHeaders(openvdb::io::File& file)
+{
+    std::vector<VdbGridHeader> headers;
+    for (auto name = file.beginName(); name != file.endName(); ++name) {
+        headers.push_back({name.gridName(), file.readGridMetadata(name.gridName())});
+    }
+    return headers;
+}
+
 void writeVdbFile(const openvdb::GridCPtrVec& grids, const std::string& path)
 {
     initializeOpenVdb();

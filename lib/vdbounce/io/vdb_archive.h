@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 /// @file
 /// Reading and writing .vdb files as wholes; for the files of io/ that know OpenVDB.
@@ -16,6 +17,14 @@ void initializeOpenVdb();
 
 /// Opens `path`, passes the file to `body`, and turns OpenVDB's exceptions into InputErrors that name it.
 void withVdbFile(const std::string& path, const std::function<void(openvdb::io::File&)>& body);
+
+/// The grids of an open file without their trees, each with the name by which the file tells it from others of the same
+/// name.
+struct VdbGridHeader {
+    std::string uniqueName;
+    openvdb::GridBase::Ptr grid;
+};
+std::vector<VdbGridHeader> readVdbHeaders(openvdb::io::File& file);
 
 /// Writes grids whole or not at all. Equal grids give equal bytes: OpenVDB's random file id is replaced by one that is
 /// computed from the content.

@@ -12,6 +12,8 @@ constexpr double kTrimmed = 0.05;              // at each end
 constexpr double kParticlesPerVoxel = 8.0;     // OpenVDB's advice for points grids
 constexpr double kLargestIndex = 1073741824.0; // 2^30: leaves room for leaf borders within 32 bits
 constexpr double kDefaultVoxel = 1.0;
+constexpr double kSmallestExponent = -16.0; // OpenVDB refuses a scale whose determinant is below 3e-15
+constexpr double kLargestExponent = 100.0;  // so that positions relative to a voxel stay floats
 
 // The box of the middle nine tenths of evenly spaced samples, axis by axis; its sides are 0 for fewer than two
 // particles.
@@ -44,13 +46,14 @@ double pointsVoxelSize(const Particles& particles)
     if (largest > 0.0) {
         // Sides much thinner than the longest are layers, not volumes: they count as at least one voxel thick.
         const Vec3d sides = extent.cwiseMax(largest * 1e-3);
-        size = std::cbrt(sides.prod() * kParticlesPerVoxel / double(particles.size()));
+        size = std::cbrt(sides.x()) * std::cbrt(sides.y()) * std::cbrt(sides.z()) *
+               std::cbrt(kParticlesPerVoxel / double(particles.size()));
     }
     double farthest = 0.0;
     const Box box = boundingBox(particles);
     if (!box.empty()) farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
     size = std::max(size, farthest / kLargestIndex);
-    return std::exp2(std::ceil(std::log2(size)));
+    return std::exp2(std::clamp(std::ceil(std::log2(size)), kSmallestExponent, kLargestExponent));
 }
 
 } // namespace vdbounce

@@ -73,11 +73,13 @@ public:
         splatParticles(particles, look_, camera_, buffer_);
     }
 
-    RgbImage develop() const
+    RgbImage develop(Progress& progress) const
     {
         RgbImage image(camera_.width / kSamples, camera_.height / kSamples);
+        ProgressCounter counter(progress, std::uint64_t(image.height));
         forEachIndex(std::size_t(image.height), 4, [&](std::size_t y) {
             for (int x = 0; x < image.width; ++x) developPixel(image, x, int(y));
+            counter.add(1);
         });
         return image;
     }
@@ -176,10 +178,11 @@ private:
 
 } // namespace
 
-RgbImage renderPicture(const Fields& fields, const Particles& particles, const PictureOptions& options)
+RgbImage renderPicture(const Fields& fields, const Particles& particles, const PictureOptions& options,
+                       Progress& progress)
 {
     validate(options);
-    return Stage(fields, particles, options).develop();
+    return Stage(fields, particles, options).develop(progress);
 }
 
 } // namespace vdbounce

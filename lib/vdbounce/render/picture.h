@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/base/progress.h"
 #include "vdbounce/field/distance_field.h"
 #include "vdbounce/io/png_file.h"
 #include "vdbounce/particles/particles.h"
@@ -26,6 +27,6 @@ struct PictureOptions {
 /// picture for any number of threads. Throws UsageError for options out of range, InputError when there is nothing to
 /// show.
 RgbImage renderPicture(const std::vector<std::shared_ptr<const DistanceField>>& fields, const Particles& particles,
-                       const PictureOptions& options);
+                       const PictureOptions& options, Progress& progress = Progress::none());
 
 } // namespace vdbounce

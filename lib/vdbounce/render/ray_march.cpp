@@ -13,30 +13,12 @@ constexpr int kMaxSteps = 2000;    // a grazing ray through a grid of 1000 voxel
 constexpr double kPenumbra = 12.0; // sharpness of shadows: the light's angular radius is about a twelfth
 constexpr int kOpennessSteps = 5;
 
-struct Span {
-    double begin;
-    double end;
-};
-
-// The part of the ray within the box.
-Span clip(const Box& box, const Vec3d& origin, const Vec3d& direction, Span span)
-{
-    for (int axis = 0; axis < 3; ++axis) {
-        const double t0 = (box.min[axis] - origin[axis]) / direction[axis];
-        const double t1 = (box.max[axis] - origin[axis]) / direction[axis];
-        // NaN, of a ray within a side's plane, leaves the span as it is.
-        if (std::min(t0, t1) > span.begin) span.begin = std::min(t0, t1);
-        if (std::max(t0, t1) < span.end) span.end = std::max(t0, t1);
-    }
-    return span;
-}
-
 } // namespace
 
 std::optional<double> marchToSurface(const DistanceField& field, const Vec3d& origin, const Vec3d& direction,
                                      double begin, double end)
 {
-    const Span span = clip(field.worldBox(), origin, direction, {begin, end});
+    const Span span = clipToBox(field.worldBox(), origin, direction, {begin, end});
     const double perUnit = 1.0 / (direction.norm() * field.lipschitz());
     const double arrived = kArrivedVx * field.voxelSize();
     const double shortest = kShortestStepVx * field.voxelSize() / direction.norm();
@@ -51,7 +33,7 @@ std::optional<double> marchToSurface(const DistanceField& field, const Vec3d& or
 
 double lightReaching(const DistanceField& field, const Vec3d& point, const Vec3d& towardsLight)
 {
-    const Span span = clip(field.worldBox(), point, towardsLight, {0.0, 1e30});
+    const Span span = clipToBox(field.worldBox(), point, towardsLight, {0.0, 1e30});
     double light = 1.0;
     double t = std::max(span.begin, field.voxelSize());
     for (int step = 0; step < kMaxSteps && t < span.end; ++step) {

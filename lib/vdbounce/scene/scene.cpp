@@ -33,6 +33,14 @@ void checkCollider(const ColliderSpec& collider, const std::string& path, Checke
                     "give finite numbers");
 }
 
+// Where the last # of the file's name is; a # in a folder's name is none.
+std::size_t patternEnd(const std::string& pattern)
+{
+    const std::size_t last = pattern.rfind('#');
+    const std::size_t slash = pattern.rfind('/');
+    return last != std::string::npos && (slash == std::string::npos || last > slash) ? last : std::string::npos;
+}
+
 } // namespace
 
 std::optional<SceneFault> findFault(const Scene& scene)
@@ -62,11 +70,11 @@ void validate(const Scene& scene)
     }
 }
 
-bool hasFramePattern(const std::string& pattern) { return pattern.find('#') != std::string::npos; }
+bool hasFramePattern(const std::string& pattern) { return patternEnd(pattern) != std::string::npos; }
 
 std::string framePath(const std::string& pattern, int frame)
 {
-    const std::size_t begin = pattern.rfind('#');
+    const std::size_t begin = patternEnd(pattern);
     if (begin == std::string::npos) return pattern;
     std::size_t first = begin;
     while (first > 0 && pattern[first - 1] == '#') --first;
