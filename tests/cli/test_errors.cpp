@@ -41,8 +41,14 @@ TEST_CASE("wrong usage ends in one line and exit code 2, and leaves no file")
         {"mesh2ls " + bunny + out + " --dim 32 --threads -1", "--threads"},
         {"emit box --min 0,0 --max 1,1,1 -n 5" + out, "0,0"},
         {"emit box --min 1,1,1 --max 0,0,0 -n 5" + out, "--min"},
-        {"emit box --min 0,0,0 --max 1,1,1 -n 5 -o " + (folder / "o.txt"), "no particle format"},
+        {"emit box --min 0,0,0 --max 1,1,1 -n 5 -o " + (folder / "o.txt"), "no format"},
         {"emit cone -n 5" + out, "cone"},
+        {"emit box --min 0,0,0 --max 1,1,1 -n -5" + out, "-n"},
+        {"emit box --min 0,0,0 --max 1,1,1 -n 1e18" + out, "1e18"},
+        {"mesh2ls " + bunny + " --dim 32 -o " + (folder / "o.foo"), "'.foo'"},
+        {"slice b.vdb --axis w -o " + (folder / "o.png"), "use one of: x, y, z"},
+        {"render b.vdb -o " + (folder / "o.jpg"), "'.jpg'"},
+        {"collide --set time.dt=1 --collider a.vdb --particles b.csv --steps 3" + out, "--set"},
         {"collide", "neither a scene"},
         {"collide nothing.toml --frames x", "nothing.toml"},
     };
@@ -117,4 +123,19 @@ TEST_CASE("every verb has help with an example, and the tool a version")
     }
     CHECK(runTool("--help").exitCode == 0);
     CHECK(runTool("--version").exitCode == 0);
+}
+
+TEST_CASE("an input is never written over")
+{
+    const TemporaryFolder folder;
+    const std::string points = folder.write("p.csv", "x,y,z\n0,5,0\n");
+    REQUIRE(runTool("mesh2ls " + sourcePath("data/bunny.obj") + " --dim 32 -o " + (folder / "b.vdb")).exitCode == 0);
+    const std::string before = readFile(points);
+    std::filesystem::create_symlink("p.csv", folder / "link.csv");
+    requireOneLine(runTool("sample " + (folder / "b.vdb") + " --at " + points + " -o " + points), 2, "is the input");
+    requireOneLine(runTool("convert " + points + " " + (folder / "link.csv")), 2, "is the input");
+    requireOneLine(
+        runTool("collide --collider " + (folder / "b.vdb") + " --particles " + points + " --steps 3 -o " + points), 2,
+        "is the input");
+    CHECK(readFile(points) == before);
 }

@@ -2,9 +2,12 @@
 #include "option_values.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/io/file_bytes.h"
 #include "vdbounce/io/number_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace vdbounce::tool {
 namespace {
@@ -73,6 +76,35 @@ CLI::Option* addPixels(CLI::App& app, const std::string& name, int& width, int& 
         height = int(*h);
     };
     return app.add_option_function<std::string>(name, parse, help)->type_name("WxH");
+}
+
+CLI::Option* addCount(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help)
+{
+    constexpr double kMost = 1e11; // as many as fit the largest disks
+    const auto parse = [&target, name](const std::string& text) {
+        const auto value = parseDouble(text);
+        if (!value || !(*value >= 0.0) || *value > kMost || *value != std::floor(*value)) {
+            throw UsageError(name, "'" + text + "' is no number of particles", "give a whole number from 0 to 1e11");
+        }
+        target = static_cast<std::uint64_t>(*value);
+    };
+    return app.add_option_function<std::string>(name, parse, help)->type_name("N");
+}
+
+void requireOutput(const std::string& output, const std::vector<std::string>& endings,
+                   const std::vector<std::string>& inputs)
+{
+    std::string known;
+    for (const std::string& ending : endings) known += (known.empty() ? "." : ", .") + ending;
+    if (std::find(endings.begin(), endings.end(), fileEnding(output)) == endings.end()) {
+        throw UsageError(output, "'." + fileEnding(output) + "' is no format that this verb writes", "use " + known);
+    }
+    for (const std::string& input : inputs) {
+        std::error_code missing;
+        if (std::filesystem::equivalent(output, input, missing)) {
+            throw UsageError(output, "is the input, which writing would destroy", "name another file");
+        }
+    }
 }
 
 } // namespace vdbounce::tool

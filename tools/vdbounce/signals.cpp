@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "signals.h"
 
+#include "vdbounce/base/error.h"
 #include "vdbounce/io/safe_file.h"
 
 #include <atomic>
@@ -33,6 +34,11 @@ void handleInterrupts()
     ::sigaction(SIGTERM, &action, nullptr);
     // A reader that went away shows as a failed write, which is reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
+}
+
+void throwIfInterrupted()
+{
+    if (interruptRequested()) throw Interrupted();
 }
 
 bool interruptRequested() { return requested.load(std::memory_order_relaxed); }

@@ -7,6 +7,9 @@ namespace vdbounce::tool {
 /// process at once with exit code 130; neither leaves a half-written file.
 void handleInterrupts();
 
+/// Throws Interrupted after the first; for the moment before a verb writes what it made.
+void throwIfInterrupted();
+
 /// True after the first.
 bool interruptRequested();
 

@@ -67,7 +67,13 @@ Scene quickScene(const CollideArguments& a)
 
 Scene sceneFor(const CollideArguments& arguments)
 {
-    if (arguments.sceneFile.empty()) return quickScene(arguments);
+    if (arguments.sceneFile.empty()) {
+        if (!arguments.overrides.empty()) {
+            throw UsageError("--set", "changes a scene, and none is given",
+                             "name a scene file or use the options of the quick form");
+        }
+        return quickScene(arguments);
+    }
     if (hasQuickOptions(arguments)) {
         throw UsageError("vdbounce collide",
                          "a scene file excludes --collider, --particles, -o and the other options of the quick form",
@@ -91,6 +97,13 @@ RunOptions runOptions(const CollideArguments& arguments)
     options.firstFrame = int(*first);
     options.lastFrame = int(*last);
     return options;
+}
+
+std::vector<std::string> inputsOf(const Scene& scene)
+{
+    std::vector<std::string> inputs = {scene.particleFile};
+    for (const ColliderSpec& collider : scene.colliders) inputs.push_back(collider.file);
+    return inputs;
 }
 
 Json toJson(const RunReport& run)
@@ -141,6 +154,7 @@ std::string toText(const RunReport& run)
 void runCollide(const CollideArguments& arguments, const CommonOptions& common)
 {
     const Scene scene = sceneFor(arguments);
+    if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, inputsOf(scene));
     if (arguments.explain) {
         const std::vector<std::string> lines = explainScene(scene);
         std::string text;

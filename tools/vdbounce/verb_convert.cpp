@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "option_values.h"
 #include "report.h"
+#include "signals.h"
 
 #include "vdbounce/io/particle_file.h"
 
@@ -15,8 +17,9 @@ struct ConvertArguments {
 
 void runConvert(const ConvertArguments& arguments, const CommonOptions& common)
 {
-    requireParticleFile(arguments.output);
+    requireOutput(arguments.output, {"vdb", "csv", "ply"}, {arguments.input});
     const Particles particles = readParticles(arguments.input);
+    throwIfInterrupted();
     writeParticles(particles, arguments.output);
     report(common, {{"output", arguments.output}, {"particles", particles.size()}},
            arguments.output + ": " + grouped(particles.size()) + " particles");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "option_values.h"
 #include "report.h"
+#include "signals.h"
 
 #include "vdbounce/build/emit.h"
 #include "vdbounce/io/grid_file.h"
@@ -23,6 +24,7 @@ struct EmitArguments {
 
 void finish(const Particles& particles, const EmitArguments& arguments, const CommonOptions& common)
 {
+    throwIfInterrupted();
     writeParticles(particles, arguments.output);
     report(common, {{"output", arguments.output}, {"particles", particles.size()}, {"seed", arguments.options.seed}},
            arguments.output + ": " + grouped(particles.size()) + " particles");
@@ -38,7 +40,7 @@ Particles emitFromSurface(const EmitArguments& arguments)
 void addEmitted(CLI::App& where, EmitArguments& arguments, const std::string& radiusName)
 {
     EmitOptions& options = arguments.options;
-    where.add_option("-n,--count", options.count, "Number of particles")->required()->type_name("N");
+    addCount(where, "-n,--count", options.count, "Number of particles; 1e6 is one")->required();
     where.add_option("-o,--output", arguments.output, "Particles to write: .vdb, .csv or .ply")->required();
     where.add_option("--seed", options.seed, "Equal seeds give equal particles")->capture_default_str()->type_name("N");
     addVector(where, "--velocity", options.velocity, "Velocity of every particle");
@@ -61,7 +63,7 @@ void addEmit(CLI::App& app, const CommonOptions& common)
     addEmitted(*box, *arguments, "--radius,--particle-radius");
     box->callback([arguments, &common] {
         runWith(common, [&] {
-            requireParticleFile(arguments->output);
+            requireOutput(arguments->output, {"vdb", "csv", "ply"}, {arguments->field});
             finish(emitInBox(arguments->box, arguments->options), *arguments, common);
         });
     });
@@ -74,7 +76,7 @@ void addEmit(CLI::App& app, const CommonOptions& common)
     addEmitted(*sphere, *arguments, "--particle-radius");
     sphere->callback([arguments, &common] {
         runWith(common, [&] {
-            requireParticleFile(arguments->output);
+            requireOutput(arguments->output, {"vdb", "csv", "ply"}, {arguments->field});
             finish(emitInSphere(arguments->centre, arguments->ballRadius, arguments->options), *arguments, common);
         });
     });
@@ -85,7 +87,7 @@ void addEmit(CLI::App& app, const CommonOptions& common)
     addEmitted(*surface, *arguments, "--radius,--particle-radius");
     surface->callback([arguments, &common] {
         runWith(common, [&] {
-            requireParticleFile(arguments->output);
+            requireOutput(arguments->output, {"vdb", "csv", "ply"}, {arguments->field});
             finish(emitFromSurface(*arguments), *arguments, common);
         });
     });

@@ -104,6 +104,7 @@ void runMesh2ls(const Mesh2lsArguments& arguments, const CommonOptions& common)
     if (arguments.band && (arguments.exterior || arguments.interior)) {
         throw UsageError("vdbounce mesh2ls", "--band excludes --exterior and --interior", "give one or the other");
     }
+    requireOutput(arguments.output, {"vdb"}, {arguments.input});
     auto mark = std::chrono::steady_clock::now();
     const TriangleMesh mesh = readMesh(arguments.input);
     const double readSeconds = secondsSince(mark);
@@ -149,9 +150,8 @@ void addMesh2ls(CLI::App& app, const CommonOptions& common)
     addLength(*verb, "--band", arguments->band, "Half width of the narrow band on both sides (default 3vx)");
     addLength(*verb, "--exterior", arguments->exterior, "Half width outside");
     addLength(*verb, "--interior", arguments->interior, "Half width inside");
-    verb->add_option("--sign", arguments->sign,
-                     "How inside is told from outside: auto, winding, parity, flood, unsigned")
-        ->transform(CLI::CheckedTransformer(kSignMethods).description("METHOD"));
+    addChoice(*verb, "--sign", arguments->sign, kSignMethods,
+              "How inside is told from outside: auto, winding, parity, flood, unsigned");
     addLength(*verb, "--thickness", arguments->thickness,
               "Thickness of the sheet that --sign unsigned makes (default 2vx)");
     verb->add_option("--name", arguments->name, "Name of the grid")->capture_default_str();

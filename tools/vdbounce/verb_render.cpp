@@ -50,6 +50,7 @@ void append(Particles& all, const Particles& more)
 
 void runRender(const RenderArguments& arguments, const CommonOptions& common)
 {
+    requireOutput(arguments.output, {"png"}, arguments.files);
     std::vector<std::shared_ptr<const DistanceField>> fields;
     Particles particles;
     for (const std::string& file : arguments.files) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "option_values.h"
 #include "report.h"
+#include "signals.h"
 
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/field/distance_field.h"
@@ -36,11 +38,13 @@ void appendRow(std::string& text, const DistanceField& field, const Vec3d& point
 
 void runSample(const SampleArguments& arguments, const CommonOptions& common)
 {
+    requireOutput(arguments.output, {"csv"}, {arguments.field, arguments.points});
     const DistanceField field(readLevelSet(arguments.field));
     const Particles points = readParticles(arguments.points);
     std::vector<std::string> blocks(blockCount(points.size(), kRowsPerBlock));
     forEachBlock(points.size(), kRowsPerBlock, [&](std::size_t block, IndexRange range) {
         for (std::size_t i = range.begin; i < range.end; ++i) appendRow(blocks[block], field, points.position[i]);
+        throwIfInterrupted();
     });
     SafeFile file(arguments.output);
     file.write(std::string("x,y,z,phi,gx,gy,gz,lo,hi\n"));

@@ -23,6 +23,7 @@ const std::map<std::string, int> kAxes = {{"x", 0}, {"y", 1}, {"z", 2}};
 
 void runSlice(const SliceArguments& arguments, const CommonOptions& common)
 {
+    requireOutput(arguments.output, {"png"}, {arguments.field, arguments.particles});
     const DistanceField field(readLevelSet(arguments.field));
     const Particles particles = arguments.particles.empty() ? Particles{} : readParticles(arguments.particles);
     SliceOptions options = arguments.options;
@@ -42,8 +43,7 @@ void addSlice(CLI::App& app, const CommonOptions& common)
     auto arguments = std::make_shared<SliceArguments>();
     verb->add_option("FIELD", arguments->field, "Level set, .vdb")->required();
     verb->add_option("-o,--output", arguments->output, "Picture to write, .png")->required();
-    verb->add_option("--axis", arguments->options.axis, "The axis to cut across: x, y, z (default z)")
-        ->transform(CLI::CheckedTransformer(kAxes).description("AXIS"));
+    addChoice(*verb, "--axis", arguments->options.axis, kAxes, "The axis to cut across: x, y, z (default z)");
     verb->add_option("--at", arguments->options.at, "Where to cut it, world units; else in the middle")->type_name("D");
     verb->add_option("--particles", arguments->particles, "Particles to show near the cut");
     addLength(*verb, "--slab", arguments->slab, "How near (default 2vx)");
