@@ -275,26 +275,6 @@ private:
 
 } // namespace
 
-StepTally::StepTally(std::size_t colliders)
-    : impulse(colliders, Vec3d::Zero()), angularImpulse(colliders, Vec3d::Zero())
-{
-}
-
-StepTally& StepTally::operator+=(const StepTally& other)
-{
-    free += other.free;
-    near += other.near;
-    contacts += other.contacts;
-    swept += other.swept;
-    unresolved += other.unresolved;
-    maxPenetration = std::max(maxPenetration, other.maxPenetration);
-    for (std::size_t i = 0; i < impulse.size(); ++i) {
-        impulse[i] += other.impulse[i];
-        angularImpulse[i] += other.angularImpulse[i];
-    }
-    return *this;
-}
-
 void settle(MovingParticle& particle, const ColliderSet& colliders)
 {
     const Probe probe = colliders.probe(particle.position, particle.radius);

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "vdbounce/contact/collider.h"
-
-#include <cstdint>
-#include <vector>
+#include "vdbounce/contact/step_tally.h"
 
 namespace vdbounce {
 
@@ -32,21 +30,6 @@ struct MovingParticle {
     /// longer than the step, no collider is looked at.
     double clearance = 0.0;
     bool inside = false; ///< it penetrates a collider
-};
-
-/// What happened to the colliders and how often.
-struct StepTally {
-    std::uint64_t free = 0;            ///< particle steps without any lookup
-    std::uint64_t near = 0;            ///< particle steps that looked a collider up
-    std::uint64_t contacts = 0;        ///< of these, those with a collision or contact
-    std::uint64_t swept = 0;           ///< of these, those that searched along the path
-    std::uint64_t unresolved = 0;      ///< of these, those that ended where they began, or still inside
-    double maxPenetration = 0.0;       ///< deepest -gap at the end of a step, world units
-    std::vector<Vec3d> impulse;        ///< on each collider
-    std::vector<Vec3d> angularImpulse; ///< on each collider, about the world's origin
-
-    explicit StepTally(std::size_t colliders = 0);
-    StepTally& operator+=(const StepTally& other);
 };
 
 /// Finds out what surrounds a particle; needed before its first step.
