@@ -138,4 +138,12 @@ TEST_CASE("an input is never written over")
         runTool("collide --collider " + (folder / "b.vdb") + " --particles " + points + " --steps 3 -o " + points), 2,
         "is the input");
     CHECK(readFile(points) == before);
+
+    // A frame's name counts, not only the pattern.
+    const std::string first = folder.write("out.0003.csv", before);
+    const std::string scene = folder.write(
+        "s.toml", "[time]\nframes = 5\n[particles]\nfile = \"out.0003.csv\"\n[output]\nfile = \"out.####.csv\"\n");
+    requireOneLine(runTool("collide " + scene), 2, "writing frame 3 would destroy");
+    CHECK(readFile(first) == before);
+    CHECK_FALSE(std::filesystem::exists(folder / "out.0000.csv"));
 }

@@ -99,13 +99,6 @@ RunOptions runOptions(const CollideArguments& arguments)
     return options;
 }
 
-std::vector<std::string> inputsOf(const Scene& scene)
-{
-    std::vector<std::string> inputs = {scene.particleFile};
-    for (const ColliderSpec& collider : scene.colliders) inputs.push_back(collider.file);
-    return inputs;
-}
-
 Json toJson(const RunReport& run)
 {
     Json colliders = Json::array();
@@ -154,7 +147,7 @@ std::string toText(const RunReport& run)
 void runCollide(const CollideArguments& arguments, const CommonOptions& common)
 {
     const Scene scene = sceneFor(arguments);
-    if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, inputsOf(scene));
+    if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, {});
     if (arguments.explain) {
         const std::vector<std::string> lines = explainScene(scene);
         std::string text;

@@ -7,6 +7,7 @@
 #include "vdbounce/scene/scene_load.h"
 
 #include <chrono>
+#include <filesystem>
 
 namespace vdbounce {
 namespace {
@@ -36,6 +37,23 @@ bool isWritten(const Scene& scene, int frame, int lastFrame)
     if (scene.outputFile.empty()) return false;
     if (frame == lastFrame) return true;
     return hasFramePattern(scene.outputFile) && frame % scene.every == 0;
+}
+
+// A frame's file may have the name of a file that the scene reads, which writing would destroy.
+void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
+{
+    std::vector<std::string> inputs = {scene.particleFile};
+    for (const ColliderSpec& collider : scene.colliders) inputs.push_back(collider.file);
+    for (int frame = firstFrame == 0 ? 0 : firstFrame + 1; frame <= lastFrame; ++frame) {
+        if (!isWritten(scene, frame, lastFrame)) continue;
+        const std::string output = framePath(scene.outputFile, frame);
+        for (const std::string& input : inputs) {
+            std::error_code missing;
+            if (!std::filesystem::equivalent(output, input, missing)) continue;
+            throw UsageError(output, "is the input, which writing frame " + std::to_string(frame) + " would destroy",
+                             "name another output");
+        }
+    }
 }
 
 void requireSteppable(const PassReport& pass, const Scene& scene)
@@ -118,6 +136,7 @@ RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& p
         throw UsageError("--frames " + std::to_string(options.firstFrame) + "-" + std::to_string(lastFrame),
                          "is no range of frames", "give FIRST-LAST with FIRST not above LAST");
     }
+    requireInputsKept(scene, options.firstFrame, lastFrame);
     return Run(scene, options, progress).run();
 }
 
