@@ -26,6 +26,7 @@ DistanceField::DistanceField(const LevelSetGrid& grid)
     interior_ = parts.interior;
     lipschitz_ = lipschitzBound(blocks_, transform_);
     clipped_ = surfaceReachesBox();
+    worldBox_ = boxInWorld();
 }
 
 DistanceField::Cell::Cell(const Vec3d& index)
@@ -53,37 +54,38 @@ DistanceField::Neighbourhood DistanceField::neighbourhood(const Cell& cell, floa
     return {copy, 16, 4};
 }
 
-double DistanceField::phiInBox(const Vec3d& index) const
+// interpolate(neighbourhood, place in the cell), or where all values around are one: that, without any gradient.
+template <class Interpolate> auto DistanceField::inCell(const Vec3d& index, const Interpolate& interpolate) const
 {
     const Cell cell(index);
     float copy[64];
     float constant = 0.0f;
     const Neighbourhood near = neighbourhood(cell, copy, constant);
-    if (near.values == nullptr) return constant;
-    return trilinear(near.values + near.strideX + near.strideY + 1, near.strideX, near.strideY, cell.at);
+    using Result = decltype(interpolate(near, cell.at));
+    return near.values == nullptr ? Result{double(constant)} : interpolate(near, cell.at);
+}
+
+double DistanceField::phiInBox(const Vec3d& index) const
+{
+    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
+        return trilinear(near.cellValues(), near.strideX, near.strideY, at);
+    });
 }
 
 FieldSample DistanceField::sampleInBox(const Vec3d& index) const
 {
-    const Cell cell(index);
-    float copy[64];
-    float constant = 0.0f;
-    const Neighbourhood near = neighbourhood(cell, copy, constant);
-    if (near.values == nullptr) return {constant, Vec3d::Zero()};
-    return trilinearWithGradient(near.values, near.strideX, near.strideY, cell.at);
+    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
+        return trilinearWithGradient(near.values, near.strideX, near.strideY, at);
+    });
 }
 
 // phi with the gradient of the trilinear cell itself, which is phi's derivative exactly and reaches no voxel beside the
 // box.
 FieldSample DistanceField::cellSampleInBox(const Vec3d& index) const
 {
-    const Cell cell(index);
-    float copy[64];
-    float constant = 0.0f;
-    const Neighbourhood near = neighbourhood(cell, copy, constant);
-    if (near.values == nullptr) return {constant, Vec3d::Zero()};
-    return trilinearWithCellGradient(near.values + near.strideX + near.strideY + 1, near.strideX, near.strideY,
-                                     cell.at);
+    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
+        return trilinearWithCellGradient(near.cellValues(), near.strideX, near.strideY, at);
+    });
 }
 
 double DistanceField::phi(const Vec3d& world) const
@@ -190,7 +192,8 @@ double DistanceField::freeDistance(const Vec3d& world, double phi) const
     return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)));
 }
 
-Box DistanceField::worldBox() const
+// The world box around the index box.
+Box DistanceField::boxInWorld() const
 {
     Box box;
     if (empty()) return box;

@@ -59,7 +59,7 @@ public:
     /// The box of the active voxels' centres, index space.
     const Box& indexBox() const { return indexBox_; }
     /// The world box around it.
-    Box worldBox() const;
+    const Box& worldBox() const { return worldBox_; }
 
     /// True when the surface reaches the side of the grid's box, so that what lies outside of it is not known.
     bool clipped() const { return clipped_; }
@@ -90,14 +90,20 @@ private:
         const float* values;
         int strideX;
         int strideY;
+
+        /// The cell's own 8 values, which start one further along each axis.
+        const float* cellValues() const { return values + strideX + strideY + 1; }
     };
     Neighbourhood neighbourhood(const Cell& cell, float (&copy)[64], float& constant) const;
 
+    template <class Interpolate> auto inCell(const Vec3d& index, const Interpolate& interpolate) const;
     bool surfaceReachesBox() const;
+    Box boxInWorld() const;
 
     LinearTransform transform_;
     LeafBlocks blocks_;
     Box indexBox_;
+    Box worldBox_; // asked for by every ray and every sweep
     float background_ = 0.0f;
     float interior_ = 0.0f;
     double lipschitz_ = 1.0;
