@@ -78,7 +78,6 @@ PathHit sweepPath(const ColliderSet& colliders, const Vec3d& from, const Vec3d& 
     double length = (to - from).norm();
     if (!(length > 0.0) || !std::isfinite(length)) return result;
     const Path path{from, (to - from) / length, radius, shortestStep};
-    const double whole = length;
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         std::visit(
             [&](const auto& shape) {
@@ -90,7 +89,7 @@ PathHit sweepPath(const ColliderSet& colliders, const Vec3d& from, const Vec3d& 
                 }
                 // Later colliders only matter where they are met sooner.
                 length = bracket->free;
-                result = {true, length / whole, path.at(length), i};
+                result = {true, path.at(length), i};
             },
             colliders[i].shape);
     }

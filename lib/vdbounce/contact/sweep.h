@@ -8,8 +8,7 @@ namespace vdbounce {
 /// Where along a straight path a particle first touches a collider.
 struct PathHit {
     bool hit = false;
-    double fraction = 1.0; ///< of the path, 0 to 1: the last known free point before the hit
-    Vec3d position;        ///< there
+    Vec3d position; ///< the last known free point before the hit; without one the path's end
     std::size_t collider = 0;
 };
 
