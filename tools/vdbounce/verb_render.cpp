@@ -9,7 +9,6 @@
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/render/picture.h"
 
-#include <algorithm>
 #include <memory>
 
 namespace vdbounce::tool {
@@ -23,11 +22,18 @@ struct RenderArguments {
     std::optional<Vec3d> frameMax;
 };
 
-bool holdsPoints(const std::string& path)
+// What a file has to draw; a .vdb may hold points and a level set both.
+struct Drawables {
+    bool points = false;
+    bool surface = false;
+};
+
+Drawables drawablesOf(const std::string& path)
 {
-    if (fileEnding(path) != "vdb") return true;
-    const auto grids = listGrids(path);
-    return std::any_of(grids.begin(), grids.end(), [](const GridEntry& grid) { return grid.isPoints; });
+    if (fileEnding(path) != "vdb") return {true, false};
+    Drawables found;
+    for (const GridEntry& grid : listGrids(path)) (grid.isPoints ? found.points : found.surface) = true;
+    return found;
 }
 
 void append(Particles& all, const Particles& more)
@@ -54,11 +60,9 @@ void runRender(const RenderArguments& arguments, const CommonOptions& common)
     std::vector<std::shared_ptr<const DistanceField>> fields;
     Particles particles;
     for (const std::string& file : arguments.files) {
-        if (holdsPoints(file)) {
-            append(particles, readParticles(file));
-        } else {
-            fields.push_back(std::make_shared<const DistanceField>(readLevelSet(file)));
-        }
+        const Drawables has = drawablesOf(file);
+        if (has.points) append(particles, readParticles(file));
+        if (has.surface || !has.points) fields.push_back(std::make_shared<const DistanceField>(readLevelSet(file)));
     }
     PictureOptions options = arguments.options;
     if (arguments.frameMin.has_value() != arguments.frameMax.has_value())
