@@ -3,6 +3,7 @@
 
 #include "vdbounce/field/field_build.h"
 #include "vdbounce/field/index_box.h"
+#include "vdbounce/field/lipschitz.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +15,26 @@ namespace {
 // What is known of a point that is not finite.
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
+// The derivative of a Catmull-Rom spline is up to 1.5 times the largest difference of the four values, and its weights
+// along the two other axes sum up to 1.25 each without their signs.
+constexpr double kSplineSteepness = 1.5 * 1.25 * 1.25;
+
 } // namespace
 
-DistanceField::DistanceField(const LevelSetGrid& grid)
+DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& options) : options_(options)
 {
-    FieldParts parts = buildFieldParts(grid);
+    FieldParts parts = buildFieldParts(grid, options.storage);
     transform_ = parts.transform;
     blocks_ = std::move(parts.blocks);
     indexBox_ = parts.indexBox;
     background_ = parts.background;
     interior_ = parts.interior;
+    storageError_ = parts.storageError;
     lipschitz_ = lipschitzBound(blocks_, transform_);
+    if (options.lookup == Lookup::Nearest) jump_ = lipschitz_ * transform_.voxelDiagonal();
+    // The three components of the spline's gradient may be steepest each for another cell's sake.
+    if (options.lookup == Lookup::Cubic)
+        lipschitz_ *= kSplineSteepness * (transform_.orthogonal() ? std::sqrt(3.0) : 3.0);
     clipped_ = surfaceReachesBox();
     worldBox_ = boxInWorld();
 }
@@ -39,25 +49,23 @@ DistanceField::Cell::Cell(const Vec3d& index)
 DistanceField::Neighbourhood DistanceField::neighbourhood(const Cell& cell, float (&copy)[64], float& constant) const
 {
     const LeafBlocks::Entry entry = blocks_.entryAt(cell.voxel);
-    if (entry.isBlock()) {
-        constexpr int kMask = LeafBlocks::kLeafSide - 1;
-        const float* block = blocks_.block(entry.block());
-        return {block + (cell.voxel.x() & kMask) * LeafBlocks::kStrideX +
-                    (cell.voxel.y() & kMask) * LeafBlocks::kStrideY + (cell.voxel.z() & kMask),
-                LeafBlocks::kStrideX, LeafBlocks::kStrideY};
-    }
-    if (entry.isFar()) {
+    if (!entry.isBlock()) {
         constant = blocks_.tileValue(entry);
         return {nullptr, 0, 0};
     }
-    for (int i = 0; i < 64; ++i) copy[i] = blocks_.valueAt(cell.voxel + Vec3i(i / 16 - 1, i / 4 % 4 - 1, i % 4 - 1));
+    const int offset = BlockLayout::neighbourhoodOf(cell.voxel);
+    const BlockValues& values = blocks_.values();
+    if (values.storage() == Storage::Float) {
+        const std::size_t place = entry.block() * BlockLayout::kSize + std::size_t(offset);
+        return {values.floats().data() + place, BlockLayout::kStrideX, BlockLayout::kStrideY};
+    }
+    values.decodeNeighbourhood(entry.block(), offset, copy);
     return {copy, 16, 4};
 }
 
 // interpolate(neighbourhood, place in the cell), or where all values around are one: that, without any gradient.
-template <class Interpolate> auto DistanceField::inCell(const Vec3d& index, const Interpolate& interpolate) const
+template <class Interpolate> auto DistanceField::inCell(const Cell& cell, const Interpolate& interpolate) const
 {
-    const Cell cell(index);
     float copy[64];
     float constant = 0.0f;
     const Neighbourhood near = neighbourhood(cell, copy, constant);
@@ -67,23 +75,40 @@ template <class Interpolate> auto DistanceField::inCell(const Vec3d& index, cons
 
 double DistanceField::phiInBox(const Vec3d& index) const
 {
-    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
+    const Cell cell(options_.lookup == Lookup::Nearest ? Vec3d(index.array() + 0.5) : index);
+    return inCell(cell, [&](const Neighbourhood& near, const Vec3d& at) {
+        if (options_.lookup == Lookup::Nearest) return double(*near.cellValues());
+        if (options_.lookup == Lookup::Cubic) return tricubic(near.values, near.strideX, near.strideY, at).phi;
         return trilinear(near.cellValues(), near.strideX, near.strideY, at);
     });
 }
 
 FieldSample DistanceField::sampleInBox(const Vec3d& index) const
 {
-    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
-        return trilinearWithGradient(near.values, near.strideX, near.strideY, at);
+    const bool central = options_.normal == Normal::Central;
+    if (options_.lookup == Lookup::Nearest) {
+        const Cell nearest(Vec3d(index.array() + 0.5));
+        FieldSample sample = inCell(nearest, [](const Neighbourhood& near, const Vec3d&) {
+            return FieldSample{double(*near.cellValues()), centralDifferences(near.values, near.strideX, near.strideY)};
+        });
+        if (!central) sample.gradient = cellSampleInBox(index).gradient;
+        return sample;
+    }
+    return inCell(Cell(index), [&](const Neighbourhood& near, const Vec3d& at) {
+        if (options_.lookup == Lookup::Cubic) {
+            FieldSample sample = tricubic(near.values, near.strideX, near.strideY, at);
+            if (central) sample.gradient = trilinearWithGradient(near.values, near.strideX, near.strideY, at).gradient;
+            return sample;
+        }
+        return central ? trilinearWithGradient(near.values, near.strideX, near.strideY, at)
+                       : trilinearWithCellGradient(near.cellValues(), near.strideX, near.strideY, at);
     });
 }
 
-// phi with the gradient of the trilinear cell itself, which is phi's derivative exactly and reaches no voxel beside the
-// box.
+// phi with the gradient of the trilinear cell itself, which reaches no voxel beside the box.
 FieldSample DistanceField::cellSampleInBox(const Vec3d& index) const
 {
-    return inCell(index, [](const Neighbourhood& near, const Vec3d& at) {
+    return inCell(Cell(index), [](const Neighbourhood& near, const Vec3d& at) {
         return trilinearWithCellGradient(near.cellValues(), near.strideX, near.strideY, at);
     });
 }
@@ -185,11 +210,12 @@ Interval DistanceField::bounds(const Vec3d& world) const
 
 double DistanceField::freeDistance(const Vec3d& world, double phi) const
 {
+    phi -= jump_;
     if (!clipped_ || phi <= 0.0) return phi;
     // Beside a cut the sign changes where B does, which is no nearer than B tells.
     const Vec3d index = transform_.toIndex(world);
     if (indexBox_.contains(index)) return phi;
-    return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)));
+    return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)) - jump_);
 }
 
 // The world box around the index box.

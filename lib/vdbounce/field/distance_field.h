@@ -4,6 +4,7 @@
 #include "vdbounce/base/box.h"
 #include "vdbounce/base/interval.h"
 #include "vdbounce/base/vector.h"
+#include "vdbounce/field/field_options.h"
 #include "vdbounce/field/leaf_blocks.h"
 #include "vdbounce/field/linear_transform.h"
 #include "vdbounce/field/stencil.h"
@@ -18,9 +19,10 @@ namespace vdbounce {
 ///
 /// | where | phi | gradient |
 /// |---|---|---|
-/// | in the grid's box | trilinear of the 8 voxels around the point | central differences at those 8, interpolated the
-/// same way, carried to world space by the inverse transpose | | outside | sign(B) sqrt(A^2 + B^2), with A the distance
-/// to the closest point of the box and B = phi there | the derivative of that |
+/// | in the grid's box | trilinear of the 8 voxels around the point, or what FieldOptions asks for | central
+/// differences at those 8, interpolated the same way, carried to world space by the inverse transpose | | outside |
+/// sign(B) sqrt(A^2 + B^2), with A the distance to the closest point of the box and B = phi there | the derivative of
+/// that |
 ///
 /// The box is that of the active voxels' centres. Between the narrow band and the box phi is the background with the
 /// sign of the side, a lower bound on the distance, and the gradient is zero. Method: lecture, slides 26, 28 and 29.
@@ -29,11 +31,14 @@ namespace vdbounce {
 ///     DistanceField field(grid);
 ///     FieldSample s = field.sample(Vec3d(0, 1, 0)); // s.phi, s.gradient
 ///
-/// Cost: a copy of the voxels with a halo (5.8 KB a leaf); a lookup reads one block.
+/// Cost: a copy of the voxels with a halo (see Storage for its size); a lookup reads one block. For many points at once
+/// see samplePoints(), which is ten times as fast.
 class DistanceField {
 public:
     /// Throws InputError, naming the grid and the voxel, for values that are not finite.
-    explicit DistanceField(const LevelSetGrid& grid);
+    explicit DistanceField(const LevelSetGrid& grid, const FieldOptions& options = {});
+
+    const FieldOptions& options() const { return options_; }
 
     double phi(const Vec3d& world) const;
     FieldSample sample(const Vec3d& world) const;
@@ -43,17 +48,22 @@ public:
     /// the box's diagonal; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the closest point for B.
     Interval bounds(const Vec3d& world) const;
 
-    /// No two points in the box differ in phi by more than this times their distance. At least 1.
+    /// No two points in the box differ in phi by more than this times their distance, or with Lookup::Nearest their
+    /// distance and a voxel's diagonal. At least 1.
     double lipschitz() const { return lipschitz_; }
 
     /// A distance that can be travelled from `world` in any direction, times lipschitz(), without phi becoming less
     /// than 0, given that phi there is `phi`: phi itself, but for a surface that its box cuts off, where phi outside
-    /// jumps.
+    /// jumps, and less a jump for Lookup::Nearest.
     double freeDistance(const Vec3d& world, double phi) const;
 
     const LinearTransform& transform() const { return transform_; }
     double voxelSize() const { return transform_.smallestVoxelSize(); }
     double background() const { return background_; }
+
+    /// The most that a phi in the box can be off for the storage that was asked for, measured over all voxels; 0 for
+    /// Storage::Float. A gradient's component along a grid axis is off by at most this over the voxel's side there.
+    double storageError() const { return storageError_; }
     bool empty() const { return indexBox_.empty(); }
 
     /// The box of the active voxels' centres, index space.
@@ -91,12 +101,12 @@ private:
         int strideX;
         int strideY;
 
-        /// The cell's own 8 values, which start one further along each axis.
+        // The cell's own 8 values, which start one further along each axis.
         const float* cellValues() const { return values + strideX + strideY + 1; }
     };
     Neighbourhood neighbourhood(const Cell& cell, float (&copy)[64], float& constant) const;
 
-    template <class Interpolate> auto inCell(const Vec3d& index, const Interpolate& interpolate) const;
+    template <class Interpolate> auto inCell(const Cell& cell, const Interpolate& interpolate) const;
     bool surfaceReachesBox() const;
     Box boxInWorld() const;
 
@@ -106,7 +116,10 @@ private:
     Box worldBox_; // asked for by every ray and every sweep
     float background_ = 0.0f;
     float interior_ = 0.0f;
+    double storageError_ = 0.0;
     double lipschitz_ = 1.0;
+    double jump_ = 0.0; // of phi from voxel to voxel with Lookup::Nearest
+    FieldOptions options_;
     bool clipped_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/openvdb_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,57 +53,123 @@ void setTiles(const FloatGrid& grid, LeafBlocks& blocks)
     }
 }
 
-// Copies a leaf with its halo. The accessor makes neighbouring leaves cheap to find.
-void fillBlock(const FloatGrid& grid, FloatGrid::ConstAccessor& accessor, const Vec3i& origin, float* block)
+// The stretch of a block's rows that comes from the leaf `side` (-1, 0, 1) of its own along an axis, and where in that
+// leaf it begins.
+struct Stretch {
+    int begin;
+    int end;
+    int from;
+};
+
+Stretch stretchOf(int side)
 {
-    const int low = -LeafBlocks::kHaloBelow;
-    const int high = low + LeafBlocks::kBlockRows;
-    for (int x = low; x < high; ++x) {
-        for (int y = low; y < high; ++y) {
-            for (int z = low; z < high; ++z) {
-                const Coord voxel(origin.x() + x, origin.y() + y, origin.z() + z);
-                const float value = accessor.getValue(voxel);
-                if (!std::isfinite(value)) refuseValue(grid, voxel, value);
-                *block++ = value;
+    constexpr int kOwn = BlockLayout::kHaloBelow;
+    constexpr int kAfter = kOwn + BlockLayout::kLeafSide;
+    if (side < 0) return {0, kOwn, BlockLayout::kLeafSide - kOwn};
+    if (side == 0) return {kOwn, kAfter, 0};
+    return {kAfter, BlockLayout::kRows, 0};
+}
+
+// Copies what a block takes from one of the 27 leaves around it; `leaf` is null where that is a tile of `value`.
+void copyFrom(const FloatGrid::TreeType::LeafNodeType* leaf, float value, const Vec3i& side, float* block)
+{
+    const Stretch x = stretchOf(side.x());
+    const Stretch y = stretchOf(side.y());
+    const Stretch z = stretchOf(side.z());
+    const float* source = leaf != nullptr ? leaf->buffer().data() : nullptr;
+    for (int i = x.begin; i < x.end; ++i) {
+        for (int j = y.begin; j < y.end; ++j) {
+            float* row = block + i * BlockLayout::kStrideX + j * BlockLayout::kStrideY + z.begin;
+            if (source == nullptr) {
+                std::fill_n(row, z.end - z.begin, value);
+                continue;
             }
-            *block++ = 0.0f; // the row's padding
+            const int place =
+                ((x.from + i - x.begin) * BlockLayout::kLeafSide + y.from + j - y.begin) * BlockLayout::kLeafSide +
+                z.from;
+            std::copy_n(source + place, z.end - z.begin, row);
         }
     }
 }
 
-// The largest squared world length of an index-space gradient with |g_i| <= change_i. Convex, so it is at a corner.
-double steepestOf(const Vec3d& change, const LinearTransform& transform)
+// A block's values from the leaf at `origin` and its 26 neighbours. The accessor makes neighbouring leaves cheap to
+// find.
+void gatherBlock(FloatGrid::ConstAccessor& accessor, const Vec3i& origin, float (&block)[BlockLayout::kSize])
 {
-    double steepest = 0.0;
-    for (int signs = 0; signs < 4; ++signs) {
-        const Vec3d g(change.x(), (signs & 1) != 0 ? -change.y() : change.y(),
-                      (signs & 2) != 0 ? -change.z() : change.z());
-        steepest = std::max(steepest, transform.gradientToWorld(g).squaredNorm());
+    for (int n = 0; n < 27; ++n) {
+        const Vec3i side(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+        const Vec3i at = origin + BlockLayout::kLeafSide * side;
+        const Coord voxel(at.x(), at.y(), at.z());
+        const auto* leaf = accessor.probeConstLeaf(voxel);
+        copyFrom(leaf, leaf == nullptr ? accessor.getValue(voxel) : 0.0f, side, block);
     }
-    return steepest;
+    // The rows' padding: a value of the block, so that it is within its range.
+    for (int row = 0; row < BlockLayout::kRows * BlockLayout::kRows; ++row) {
+        block[row * BlockLayout::kRow + BlockLayout::kRow - 1] = block[0];
+    }
 }
 
-// The squared world length of the largest gradient in any cell that touches the block's voxels.
-double steepestCell(const float* block, const LinearTransform& transform)
+void requireFinite(const FloatGrid& grid, const Vec3i& origin, const float (&block)[BlockLayout::kSize])
 {
-    constexpr int kCells = LeafBlocks::kBlockRows - 1;
-    double steepest = 0.0;
-    for (int x = 0; x < kCells; ++x) {
-        for (int y = 0; y < kCells; ++y) {
-            for (int z = 0; z < kCells; ++z) {
-                const float* v = block + x * LeafBlocks::kStrideX + y * LeafBlocks::kStrideY + z;
-                const auto largest = [&](int along, int a, int b) {
-                    return std::max(std::max(std::abs(v[along] - v[0]), std::abs(v[along + a] - v[a])),
-                                    std::max(std::abs(v[along + b] - v[b]), std::abs(v[along + a + b] - v[a + b])));
-                };
-                constexpr int kX = LeafBlocks::kStrideX;
-                constexpr int kY = LeafBlocks::kStrideY;
-                const Vec3d change(largest(kX, kY, 1), largest(kY, kX, 1), largest(1, kX, kY));
-                steepest = std::max(steepest, steepestOf(change, transform));
-            }
-        }
+    float sum = 0.0f; // stays 0 unless a value is not finite
+    for (float value : block) sum += value * 0.0f;
+    if (sum == 0.0f) return;
+    for (int i = 0; i < BlockLayout::kSize; ++i) {
+        if (std::isfinite(block[i])) continue;
+        const int plane = i / BlockLayout::kStrideX;
+        const int row = i % BlockLayout::kStrideX / BlockLayout::kStrideY;
+        const Vec3i voxel =
+            origin + Vec3i(plane, row, i % BlockLayout::kStrideY) - Vec3i::Constant(BlockLayout::kHaloBelow);
+        refuseValue(grid, Coord(voxel.x(), voxel.y(), voxel.z()), block[i]);
     }
-    return steepest;
+}
+
+// Tiles beside others become blocks where a lookup in them could meet a second value.
+void addTilesThatNeedBlocks(const FloatGrid& grid, const std::vector<Vec3i>& tiles, LeafBlocks& blocks)
+{
+    std::vector<char> needed(tiles.size());
+    forEachBlock(tiles.size(), kLeavesPerTask, [&](std::size_t, IndexRange range) {
+        auto accessor = grid.getConstAccessor();
+        float values[BlockLayout::kSize];
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            gatherBlock(accessor, tiles[i], values);
+            needed[i] = std::any_of(values, values + BlockLayout::kSize, [&](float v) { return v != values[0]; });
+        }
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (needed[i]) blocks.addLeaf(tiles[i]);
+    }
+}
+
+float largestMagnitude(const FloatGrid& grid)
+{
+    float largest = std::abs(grid.background());
+    auto tile = grid.cbeginValueAll();
+    tile.setMaxDepth(FloatGrid::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) largest = std::max(largest, std::abs(*tile));
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const float* values = leaf->buffer().data();
+        for (std::size_t i = 0; i < leaf->SIZE; ++i) largest = std::max(largest, std::abs(values[i]));
+    }
+    return largest;
+}
+
+// Returns the largest difference between a voxel and what is kept of it.
+float fillBlocks(const FloatGrid& grid, Storage storage, LeafBlocks& blocks)
+{
+    BlockValues& kept = blocks.valuesForWriting();
+    kept.allocate(storage, blocks.blockCount(), storage == Storage::Half ? largestMagnitude(grid) : 0.0f);
+    std::vector<float> errors(blockCount(blocks.blockCount(), kLeavesPerTask));
+    forEachBlock(blocks.blockCount(), kLeavesPerTask, [&](std::size_t task, IndexRange range) {
+        auto accessor = grid.getConstAccessor();
+        float values[BlockLayout::kSize];
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            gatherBlock(accessor, blocks.origins()[i], values);
+            requireFinite(grid, blocks.origins()[i], values);
+            errors[task] = std::max(errors[task], kept.encode(i, values));
+        }
+    });
+    return errors.empty() ? 0.0f : *std::max_element(errors.begin(), errors.end());
 }
 
 // The smallest depth that an inactive voxel or tile inside claims: only that much is sure of any of them.
@@ -117,7 +184,7 @@ float interiorClamp(const FloatGrid& grid)
 
 } // namespace
 
-FieldParts buildFieldParts(const LevelSetGrid& handle)
+FieldParts buildFieldParts(const LevelSetGrid& handle, Storage storage)
 {
     const FloatGrid& grid = toOpenVdb(handle);
     FieldParts parts;
@@ -132,28 +199,9 @@ FieldParts buildFieldParts(const LevelSetGrid& handle)
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) parts.blocks.addLeaf(toVec3i(leaf->origin()));
     setTiles(grid, parts.blocks);
     parts.interior = interiorClamp(grid);
-    parts.blocks.link();
-    forEachBlock(parts.blocks.blockCount(), kLeavesPerTask, [&](std::size_t, IndexRange range) {
-        auto accessor = grid.getConstAccessor();
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            fillBlock(grid, accessor, parts.blocks.origins()[i], parts.blocks.blockForWriting(i));
-        }
-    });
+    addTilesThatNeedBlocks(grid, parts.blocks.link(), parts.blocks);
+    parts.storageError = fillBlocks(grid, storage, parts.blocks);
     return parts;
-}
-
-double lipschitzBound(const LeafBlocks& blocks, const LinearTransform& transform)
-{
-    std::vector<double> steepest(vdbounce::blockCount(blocks.blockCount(), kLeavesPerTask), 1.0);
-    forEachBlock(blocks.blockCount(), kLeavesPerTask, [&](std::size_t task, IndexRange range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            steepest[task] = std::max(steepest[task], steepestCell(blocks.block(i), transform));
-        }
-    });
-    // Where tiles of different value meet there is no leaf, and the whole difference lies in one cell.
-    double largest = std::max(1.0, steepestOf(Vec3d::Constant(double(blocks.largestTileStep())), transform));
-    for (double value : steepest) largest = std::max(largest, value);
-    return std::sqrt(largest);
 }
 
 } // namespace vdbounce

@@ -14,14 +14,11 @@ struct FieldParts {
     LeafBlocks blocks;
     Box indexBox; ///< of the active voxels' centres; empty when there are none
     float background = 0.0f;
-    float interior = 0.0f; ///< what inactive voxels inside hold is -interior or less; infinite where there are none
+    float storageError = 0.0f; ///< largest difference between a voxel and what is kept of it
+    float interior = 0.0f;     ///< what inactive voxels inside hold is -interior or less; infinite where there are none
 };
 
 /// Copies the grid's voxels into blocks, in parallel. Throws InputError for values that are not finite.
-FieldParts buildFieldParts(const LevelSetGrid& grid);
-
-/// The largest length that the gradient of the trilinear interpolant can have in any cell with a voxel in a leaf, world
-/// space: from the largest difference along each axis of each cell. At least 1, so that it holds for distances too.
-double lipschitzBound(const LeafBlocks& blocks, const LinearTransform& transform);
+FieldParts buildFieldParts(const LevelSetGrid& grid, Storage storage);
 
 } // namespace vdbounce

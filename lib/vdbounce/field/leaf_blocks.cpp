@@ -4,7 +4,6 @@
 #include "vdbounce/base/parallel.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace vdbounce {
 namespace {
@@ -12,9 +11,10 @@ namespace {
 // Entries of the dense index over nodes at most: 4 MiB, enough for a grid of 12,000 voxels a side.
 constexpr std::int64_t kLargestDenseIndex = std::int64_t(1) << 20;
 
-std::int32_t tileCode(std::size_t tile, bool near) { return ~static_cast<std::int32_t>(2 * tile + (near ? 1 : 0)); }
+constexpr int kLeafBits = BlockLayout::kLeafBits;
+constexpr int kLeafSide = BlockLayout::kLeafSide;
 
-std::int32_t markedNear(std::int32_t code) { return ~(~code | 1); }
+std::int32_t tileCode(std::size_t tile) { return ~static_cast<std::int32_t>(tile); }
 
 Vec3i shifted(const Vec3i& v, int bits) { return Vec3i(v.x() >> bits, v.y() >> bits, v.z() >> bits); }
 
@@ -57,10 +57,10 @@ std::int32_t LeafBlocks::nodeAt(const Vec3i& node) const
     if (!denseNodes_.empty()) {
         const Vec3i at = node - denseMin_;
         const bool inside = (at.array() >= 0).all() && (at.array() < denseSize_.array()).all();
-        return inside ? denseNodes_[flatIndex(at, denseSize_)] : tileCode(0, false);
+        return inside ? denseNodes_[flatIndex(at, denseSize_)] : tileCode(0);
     }
     const auto found = sparseNodes_.find({node});
-    return found != sparseNodes_.end() ? found->second : tileCode(0, false);
+    return found != sparseNodes_.end() ? found->second : tileCode(0);
 }
 
 std::int32_t LeafBlocks::codeAt(const Vec3i& voxel) const
@@ -74,10 +74,7 @@ float LeafBlocks::valueAt(const Vec3i& voxel) const
 {
     const Entry entry = entryAt(voxel);
     if (!entry.isBlock()) return tileValue(entry);
-    const int mask = kLeafSide - 1;
-    const int offset = ((voxel.x() & mask) + kHaloBelow) * kStrideX + ((voxel.y() & mask) + kHaloBelow) * kStrideY +
-                       ((voxel.z() & mask) + kHaloBelow);
-    return block(entry.block())[offset];
+    return values_.at(entry.block(), BlockLayout::neighbourhoodOf(voxel) + BlockLayout::kDiagonal);
 }
 
 bool LeafBlocks::anyBelow(const Vec3i& min, const Vec3i& max, float limit) const
@@ -111,7 +108,7 @@ bool LeafBlocks::anyBelow(const Vec3i& min, const Vec3i& max, float limit) const
 
 LeafBlocks::Node& LeafBlocks::touchNode(const Vec3i& node)
 {
-    std::int32_t& number = sparseNodes_.try_emplace({node}, tileCode(0, false)).first->second;
+    std::int32_t& number = sparseNodes_.try_emplace({node}, tileCode(0)).first->second;
     if (number < 0) {
         const std::int32_t filledWith = number;
         number = static_cast<std::int32_t>(nodes_.size());
@@ -131,7 +128,7 @@ std::int32_t LeafBlocks::tileCodeFor(float value)
     const auto found = std::find(tileValues_.begin(), tileValues_.end(), value);
     const auto tile = static_cast<std::size_t>(found - tileValues_.begin());
     if (found == tileValues_.end()) tileValues_.push_back(value);
-    return tileCode(tile, false);
+    return tileCode(tile);
 }
 
 std::size_t LeafBlocks::addLeaf(const Vec3i& origin)
@@ -151,7 +148,7 @@ void LeafBlocks::setTiles(const Vec3i& min, const Vec3i& max, float value)
         const Vec3i first = place * kNodeSide;
         const Vec3i last = first + Vec3i::Constant(kNodeSide - 1);
         const bool whole = (first.array() >= low.array()).all() && (last.array() <= high.array()).all();
-        std::int32_t& number = sparseNodes_.try_emplace({place}, tileCode(0, false)).first->second;
+        std::int32_t& number = sparseNodes_.try_emplace({place}, tileCode(0)).first->second;
         if (whole && number < 0) {
             number = code;
             return;
@@ -164,7 +161,7 @@ void LeafBlocks::setTiles(const Vec3i& min, const Vec3i& max, float value)
     });
 }
 
-void LeafBlocks::link()
+std::vector<Vec3i> LeafBlocks::link()
 {
     touchNodesThatMeetOthers();
     indexNodesDensely();
@@ -172,20 +169,15 @@ void LeafBlocks::link()
     for (const auto& [place, number] : sparseNodes_) {
         if (number >= 0) places[static_cast<std::size_t>(number)] = place.at;
     }
-    // Marks are the lowest bit of a code and every comparison ignores them, but nodes read each other's codes: so
-    // all marks are found before any is set.
-    std::vector<std::vector<std::size_t>> near(nodes_.size());
-    std::vector<float> steps(nodes_.size());
-    forEachIndex(nodes_.size(), 1, [&](std::size_t n) { near[n] = entriesNextToOthers(places[n], steps[n]); });
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-        for (std::size_t entry : near[n]) nodes_[n].code[entry] = markedNear(nodes_[n].code[entry]);
-    }
-    for (float step : steps) largestTileStep_ = std::max(largestTileStep_, step);
-    values_.resize(origins_.size() * kBlockSize);
+    std::vector<std::vector<Vec3i>> found(nodes_.size());
+    forEachIndex(nodes_.size(), 1, [&](std::size_t n) { found[n] = tilesNextToOthers(places[n]); });
+    std::vector<Vec3i> tiles;
+    for (const auto& part : found) tiles.insert(tiles.end(), part.begin(), part.end());
+    return tiles;
 }
 
-// A node filled by one tile, beside a node that holds something else along their border, needs entries of its own to
-// mark.
+// A node filled by one tile, beside a node that holds something else along their border, needs entries of its own,
+// some of which may become blocks.
 void LeafBlocks::touchNodesThatMeetOthers()
 {
     std::vector<Vec3i> work;
@@ -217,7 +209,7 @@ bool LeafBlocks::borderIs(const Vec3i& place, const Vec3i& side, std::int32_t co
 }
 
 // The tiles of a node for which any of the 26 leaves around is a block or a tile of another value.
-std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place, float& tileStep) const
+std::vector<Vec3i> LeafBlocks::tilesNextToOthers(const Vec3i& place) const
 {
     constexpr int kSide = kNodeSide + 2;
     const Vec3i size = Vec3i::Constant(kSide);
@@ -228,20 +220,17 @@ std::vector<std::size_t> LeafBlocks::entriesNextToOthers(const Vec3i& place, flo
         window[flatIndex(at, size)] = codeAt(leaf * kLeafSide);
     });
 
-    std::vector<std::size_t> entries;
+    std::vector<Vec3i> tiles;
     forEachIn(Vec3i::Zero(), Vec3i::Constant(kNodeSide - 1), [&](const Vec3i& at) {
         const std::int32_t code = window[flatIndex(at + Vec3i::Ones(), size)];
         if (code >= 0) return;
-        bool differs = false;
         for (int n = 0; n < 27; ++n) {
-            const std::int32_t other = window[flatIndex(at + Vec3i(n / 9, n / 3 % 3, n % 3), size)];
-            if (other == code) continue;
-            differs = true;
-            if (other < 0) tileStep = std::max(tileStep, std::abs(tileValue(Entry(code)) - tileValue(Entry(other))));
+            if (window[flatIndex(at + Vec3i(n / 9, n / 3 % 3, n % 3), size)] == code) continue;
+            tiles.push_back((first + at) * kLeafSide);
+            return;
         }
-        if (differs) entries.push_back(entryInNode(at, kNodeSide));
     });
-    return entries;
+    return tiles;
 }
 
 void LeafBlocks::indexNodesDensely()
@@ -257,13 +246,20 @@ void LeafBlocks::indexNodesDensely()
     if (size.x() * size.y() > kLargestDenseIndex || size.prod() > kLargestDenseIndex) return;
     denseMin_ = low;
     denseSize_ = high - low + Vec3i::Ones();
-    denseNodes_.assign(static_cast<std::size_t>(size.prod()), tileCode(0, false));
+    denseNodes_.assign(static_cast<std::size_t>(size.prod()), tileCode(0));
     for (const auto& [place, number] : sparseNodes_) denseNodes_[flatIndex(place.at - denseMin_, denseSize_)] = number;
+}
+
+LeafBlocks::Directory LeafBlocks::directory() const
+{
+    return {denseNodes_.empty() ? nullptr : denseNodes_.data(), denseMin_, denseSize_,
+            nodes_.empty() ? nullptr : nodes_.front().code, tileValues_.data()};
 }
 
 std::size_t LeafBlocks::memoryBytes() const
 {
-    return values_.size() * sizeof(float) + nodes_.size() * sizeof(Node) + denseNodes_.size() * sizeof(std::int32_t) +
+    const std::size_t sparse = sparseNodes_.size() * (sizeof(NodePlace) + sizeof(std::int32_t) + 2 * sizeof(void*));
+    return values_.memoryBytes() + nodes_.size() * sizeof(Node) + denseNodes_.size() * sizeof(std::int32_t) + sparse +
            origins_.size() * sizeof(Vec3i);
 }
 

@@ -29,4 +29,14 @@ LinearTransform::LinearTransform(const Mat3d& indexToWorld, const Vec3d& origin)
 {
 }
 
+double LinearTransform::voxelDiagonal() const
+{
+    double longest = 0.0;
+    for (int signs = 0; signs < 4; ++signs) {
+        const Vec3d diagonal(1.0, (signs & 1) != 0 ? -1.0 : 1.0, (signs & 2) != 0 ? -1.0 : 1.0);
+        longest = std::max(longest, vectorToWorld(diagonal).norm());
+    }
+    return longest;
+}
+
 } // namespace vdbounce

@@ -27,6 +27,13 @@ public:
     const Vec3d& voxelSize() const { return voxelSize_; }
     double smallestVoxelSize() const { return voxelSize_.minCoeff(); }
 
+    /// World length of a voxel's longest diagonal.
+    double voxelDiagonal() const;
+
+    const Mat3d& worldToIndex() const { return worldToIndex_; }
+    const Mat3d& gradientToWorld() const { return gradientToWorld_; }
+    const Vec3d& origin() const { return origin_; }
+
     /// True when the index axes are perpendicular in world space (no shear).
     bool orthogonal() const { return orthogonal_; }
 

@@ -15,6 +15,20 @@ struct AxisWeights {
     double difference[4];
 };
 
+// Weights of the Catmull-Rom spline through four values, for a point at `t` between the second and the third, and of
+// its derivative.
+struct SplineWeights {
+    explicit SplineWeights(double t)
+        : value{0.5 * t * (t * (2.0 - t) - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0),
+                0.5 * t * (t * (4.0 - 3.0 * t) + 1.0), 0.5 * t * t * (t - 1.0)},
+          slope{0.5 * (t * (4.0 - 3.0 * t) - 1.0), 0.5 * t * (9.0 * t - 10.0), 0.5 * (t * (8.0 - 9.0 * t) + 1.0),
+                0.5 * t * (3.0 * t - 2.0)}
+    {
+    }
+    double value[4];
+    double slope[4];
+};
+
 } // namespace
 
 double trilinear(const float* values, int strideX, int strideY, const Vec3d& at)
@@ -67,6 +81,36 @@ FieldSample trilinearWithGradient(const float* values, int strideX, int strideY,
         }
     }
     return sample;
+}
+
+FieldSample tricubic(const float* values, int strideX, int strideY, const Vec3d& at)
+{
+    const SplineWeights x(at.x());
+    const SplineWeights y(at.y());
+    const SplineWeights z(at.z());
+    FieldSample sample;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const float* row = values + i * strideX + j * strideY;
+            double value = 0.0;
+            double slope = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                value += double(row[k]) * z.value[k];
+                slope += double(row[k]) * z.slope[k];
+            }
+            sample.phi += x.value[i] * y.value[j] * value;
+            sample.gradient += Vec3d(x.slope[i] * y.value[j] * value, x.value[i] * y.slope[j] * value,
+                                     x.value[i] * y.value[j] * slope);
+        }
+    }
+    return sample;
+}
+
+Vec3d centralDifferences(const float* values, int strideX, int strideY)
+{
+    const float* v = values + strideX + strideY + 1;
+    const auto along = [&](int stride) { return 0.5 * (double(v[stride]) - double(v[-stride])); };
+    return Vec3d(along(strideX), along(strideY), along(1));
 }
 
 } // namespace vdbounce

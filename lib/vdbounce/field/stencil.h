@@ -23,4 +23,12 @@ FieldSample trilinearWithCellGradient(const float* values, int strideX, int stri
 /// is one below the cell along each axis.
 FieldSample trilinearWithGradient(const float* values, int strideX, int strideY, const Vec3d& at);
 
+/// Catmull-Rom splines through the 4^3 values around a cell, along each axis in turn, and their derivative: C1 from
+/// cell to cell, and equal to the voxels' values at their centres (Catmull and Rom 1974). Index space; `values` as
+/// above.
+FieldSample tricubic(const float* values, int strideX, int strideY, const Vec3d& at);
+
+/// The central differences at the voxel at [1][1][1] of a 4^3 neighbourhood. Index space.
+Vec3d centralDifferences(const float* values, int strideX, int strideY);
+
 } // namespace vdbounce

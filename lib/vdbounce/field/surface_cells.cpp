@@ -8,8 +8,8 @@ namespace {
 
 bool crosses(const float* v, float level)
 {
-    constexpr int kX = LeafBlocks::kStrideX;
-    constexpr int kY = LeafBlocks::kStrideY;
+    constexpr int kX = BlockLayout::kStrideX;
+    constexpr int kY = BlockLayout::kStrideY;
     const auto [low, high] = std::minmax({v[0], v[1], v[kY], v[kY + 1], v[kX], v[kX + 1], v[kX + kY], v[kX + kY + 1]});
     return low < level && high >= level;
 }
@@ -20,13 +20,14 @@ std::vector<Vec3i> cellsAroundLevel(const DistanceField& field, double level)
 {
     const LeafBlocks& blocks = field.blocks();
     std::vector<Vec3i> cells;
+    float block[BlockLayout::kSize];
     for (std::size_t b = 0; b < blocks.blockCount(); ++b) {
-        const float* values =
-            blocks.block(b) + (LeafBlocks::kStrideX + LeafBlocks::kStrideY + 1) * LeafBlocks::kHaloBelow;
-        for (int x = 0; x < LeafBlocks::kLeafSide; ++x) {
-            for (int y = 0; y < LeafBlocks::kLeafSide; ++y) {
-                for (int z = 0; z < LeafBlocks::kLeafSide; ++z) {
-                    const float* v = values + x * LeafBlocks::kStrideX + y * LeafBlocks::kStrideY + z;
+        blocks.values().decode(b, block);
+        const float* values = block + BlockLayout::kDiagonal;
+        for (int x = 0; x < BlockLayout::kLeafSide; ++x) {
+            for (int y = 0; y < BlockLayout::kLeafSide; ++y) {
+                for (int z = 0; z < BlockLayout::kLeafSide; ++z) {
+                    const float* v = values + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY + z;
                     if (crosses(v, float(level))) cells.push_back(blocks.origins()[b] + Vec3i(x, y, z));
                 }
             }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/field/block_values.h"
+
+namespace vdbounce {
+
+/// How phi is taken from the voxels.
+enum class Lookup {
+    Nearest,   ///< of the nearest voxel: 1 value, off by half a voxel's diagonal, jumps from voxel to voxel
+    Trilinear, ///< of the 8 voxels around the point: continuous
+    Cubic, ///< Catmull-Rom splines through the 4^3 voxels around the point: C1, meets every voxel's value, overshoots
+           ///< where values kink (lookups cost about three times as much)
+};
+
+/// Where the gradient comes from.
+enum class Normal {
+    Central,  ///< central differences at the 8 voxels around the point, interpolated trilinearly (32 values):
+              ///< continuous; with Lookup::Nearest those at the nearest voxel
+    Analytic, ///< the derivative of the trilinear cell (8 values), which jumps from cell to cell; with Lookup::Cubic
+              ///< the derivative of the spline, which is continuous
+};
+
+struct FieldOptions {
+    Lookup lookup = Lookup::Trilinear;
+    Normal normal = Normal::Central;
+    Storage storage = Storage::Float;
+};
+
+} // namespace vdbounce

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/field/sample_points.h"
+
+#include "vdbounce/base/parallel.h"
+#include "vdbounce/field/block_order.h"
+#include "vdbounce/field/vector_lookup.h"
+
+#include <algorithm>
+
+namespace vdbounce {
+namespace {
+
+// Points a task: a tenth of a millisecond of work.
+constexpr std::size_t kPointsPerTask = 4096;
+
+PointSample sampleOne(const DistanceField& field, const Vec3d& point)
+{
+    const FieldSample sample = field.sample(point);
+    const Eigen::Vector3f gradient = sample.gradient.cast<float>();
+    return {float(sample.phi), {gradient.x(), gradient.y(), gradient.z()}};
+}
+
+bool vectorCodeAnswers(const DistanceField& field)
+{
+    return field.options().lookup == Lookup::Trilinear && field.options().normal == Normal::Central && !field.empty() &&
+           field.blocks().directory().nodes != nullptr;
+}
+
+} // namespace
+
+VectorField::VectorField(const DistanceField& field)
+{
+    const LinearTransform& transform = field.transform();
+    const BlockValues& stored = field.blocks().values();
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            worldToIndex[3 * row + column] = transform.worldToIndex()(row, column);
+        origin[row] = transform.origin()[row];
+        boxMin[row] = field.indexBox().min[row];
+        boxMax[row] = field.indexBox().max[row];
+    }
+    directory = field.blocks().directory();
+    storage = stored.storage();
+    switch (storage) {
+    case Storage::Float: values = stored.floats().data(); break;
+    case Storage::Half: values = stored.halves().data(); break;
+    case Storage::Fixed8: values = stored.bytes().data(); break;
+    }
+    ranges = stored.ranges().data();
+    const double unit = storage == Storage::Half ? double(stored.halfUnit()) : 1.0;
+    std::fill_n(&columns[0][0], 16, 0.0f);
+    columns[0][0] = float(unit);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            columns[1 + column][1 + row] = float(unit * transform.gradientToWorld()(row, column));
+        }
+    }
+}
+
+namespace {
+
+// Looks up to kPointsPerChunk points up, in whatever way each of them needs.
+void sampleChunk(const DistanceField& field, const VectorField& vectorField, const Vec3d* points, int count,
+                 PointSample* samples)
+{
+    int outside[kPointsPerChunk];
+    const int left = lookUpChunk(vectorField, points, count, samples, outside);
+    for (int k = 0; k < left; ++k) samples[outside[k]] = sampleOne(field, points[outside[k]]);
+}
+
+void sampleInGivenOrder(const DistanceField& field, const VectorField& vectorField, const Vec3d* points,
+                        std::size_t count, PointSample* samples)
+{
+    forEachBlock(count, kPointsPerTask, [&](std::size_t, IndexRange range) {
+        for (std::size_t begin = range.begin; begin < range.end; begin += kPointsPerChunk) {
+            const int size = int(std::min(range.end - begin, std::size_t(kPointsPerChunk)));
+            sampleChunk(field, vectorField, points + begin, size, samples + begin);
+        }
+    });
+}
+
+void sampleInBlockOrder(const DistanceField& field, const VectorField& vectorField, const Vec3d* points,
+                        std::size_t count, PointSample* samples)
+{
+    BlockOrder blockOrder;
+    for (std::size_t first = 0; first < count; first += BlockOrder::kMostPoints) {
+        const std::size_t together = std::min(count - first, BlockOrder::kMostPoints);
+        const Vec3d* from = points + first;
+        PointSample* to = samples + first;
+        const auto& order = blockOrder.order(vectorField, field.blocks().blockCount(), from, together);
+        forEachBlock(together, kPointsPerTask, [&](std::size_t, IndexRange range) {
+            for (std::size_t begin = range.begin; begin < range.end; begin += kPointsPerChunk) {
+                const int size = int(std::min(range.end - begin, std::size_t(kPointsPerChunk)));
+                const std::uint32_t* numbers = order.data() + begin;
+                Vec3d chunk[kPointsPerChunk];
+                PointSample results[kPointsPerChunk];
+                for (int i = 0; i < size; ++i) chunk[i] = from[numbers[i]];
+                // The next chunk's points, and the places of its results, come while this one is computed.
+                const std::size_t next = std::min(begin + 2 * kPointsPerChunk, range.end);
+                for (std::size_t i = begin + std::size_t(size); i < next; ++i) {
+                    __builtin_prefetch(from + order[i]);
+                    __builtin_prefetch(to + order[i], 1);
+                }
+                sampleChunk(field, vectorField, chunk, size, results);
+                for (int i = 0; i < size; ++i) to[numbers[i]] = results[i];
+            }
+        });
+    }
+}
+
+} // namespace
+
+void samplePoints(const DistanceField& field, const Vec3d* points, std::size_t count, PointSample* samples)
+{
+    if (!vectorCodeAnswers(field)) {
+        forEachIndex(count, kPointsPerTask, [&](std::size_t i) { samples[i] = sampleOne(field, points[i]); });
+        return;
+    }
+    const VectorField vectorField(field);
+    if (BlockOrder::pays(vectorField, field.blocks().blockCount(), points, count)) {
+        sampleInBlockOrder(field, vectorField, points, count, samples);
+    } else {
+        sampleInGivenOrder(field, vectorField, points, count, samples);
+    }
+}
+
+} // namespace vdbounce

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/field/distance_field.h"
+
+#include <cstddef>
+
+namespace vdbounce {
+
+/// phi and its gradient at one point, world space, single precision.
+struct PointSample {
+    float phi;
+    float gradient[3];
+};
+
+/// Looks many points up at once, on all threads: samples[i] is DistanceField::sample(points[i]), in single precision.
+///
+/// Points may come in any order, and each sample depends on its own point only: the same bits whatever the order, the
+/// number of threads, and the processor's vector width (the best of AVX-512, AVX2 and SSE4 is chosen when the program
+/// runs). Within 4 units in the last place of the largest voxel value around the point of what sample() returns, the
+/// gradient within 4 of that value over the voxel's side. World positions are taken to voxels in double precision, so
+/// that this holds far from the origin too.
+///
+/// Cost: with Lookup::Trilinear and Normal::Central (the default) one pass over the points, without any extra memory;
+/// 10 to 40 ns a point and thread, as the points' order and the storage let the voxels come out of the cache. Points
+/// outside of the field's box, and the other lookups, are done one at a time by sample(), at about 100 ns.
+/// `vdbounce bench field` measures it.
+void samplePoints(const DistanceField& field, const Vec3d* points, std::size_t count, PointSample* samples);
+
+} // namespace vdbounce

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Finds the cells of many points and interpolates there, a vector at a time.
+
+// Highway would leave out its 128-bit emulation, for processors without SSSE3, with compilers before GCC 12.3, which
+// compile its products of upper halves wrongly. None are used here, and the tests compare all targets.
+#define HWY_BROKEN_EMU128 0
+
+// The rest of this file is compiled once for each target, which needs this order.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "vdbounce/field/vector_lookup.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "vdbounce/field/vector_interpolation-inl.h"
+#include "vdbounce/field/vector_lookup.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace vdbounce {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Room behind the chunk's last point, for vectors that reach beyond it.
+constexpr int kSlack = 16;
+
+// What a point needs to be looked up in its block.
+struct Chunk {
+    alignas(64) float at[3][kPointsPerChunk + kSlack]; // place in its cell, 0 to 1
+    alignas(64) std::int32_t entry[kPointsPerChunk + kSlack];
+    alignas(64) std::int32_t offset[kPointsPerChunk + kSlack];
+    std::uint64_t outside = 0; // a bit for each point
+};
+
+using Doubles = hn::CappedTag<double, 8>;
+using Ints = hn::Rebind<std::int32_t, Doubles>;
+using Floats = hn::Rebind<float, Doubles>;
+
+// The directory entries of voxels.
+hn::Vec<Ints> entriesOf(const LeafBlocks::Directory& directory, const hn::Vec<Ints> (&voxel)[3])
+{
+    const Ints d;
+    constexpr int kNodeBits = LeafBlocks::kNodeBits;
+    const auto mask = hn::Set(d, (1 << kNodeBits) - 1);
+    auto node = hn::Zero(d);
+    auto leaf = hn::Zero(d);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto leafAt = hn::ShiftRight<BlockLayout::kLeafBits>(voxel[axis]);
+        const auto nodeAt = hn::Sub(hn::ShiftRight<kNodeBits>(leafAt), hn::Set(d, directory.nodeMin[axis]));
+        node = hn::Add(hn::Mul(node, hn::Set(d, directory.nodeSize[axis])), nodeAt);
+        leaf = hn::Or(hn::ShiftLeft<kNodeBits>(leaf), hn::And(leafAt, mask));
+    }
+    const auto number = hn::GatherIndex(d, directory.nodes, node);
+    const auto isTile = hn::Lt(number, hn::Zero(d));
+    const auto place = hn::Add(hn::ShiftLeft<3 * kNodeBits>(hn::IfThenZeroElse(isTile, number)), leaf);
+    return hn::IfThenElse(isTile, number, hn::GatherIndex(d, directory.entries, place));
+}
+
+// Finds the cells of the points. Reads whole vectors, so `points` must go on to the end of the last one.
+void locate(const VectorField& field, const double* points, int count, Chunk& chunk)
+{
+    const Doubles d;
+    const Ints di;
+    const Floats df;
+    const int lanes = int(hn::Lanes(d));
+    for (int i = 0; i < count; i += lanes) {
+        hn::Vec<Doubles> world[3];
+        hn::LoadInterleaved3(d, points + 3 * i, world[0], world[1], world[2]);
+        for (int axis = 0; axis < 3; ++axis) world[axis] = hn::Sub(world[axis], hn::Set(d, field.origin[axis]));
+        hn::Vec<Doubles> index[3];
+        auto inside = hn::FirstN(d, std::size_t(lanes));
+        for (int axis = 0; axis < 3; ++axis) {
+            const double* row = field.worldToIndex + 3 * axis;
+            index[axis] = hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), world[0]), hn::Mul(hn::Set(d, row[1]), world[1])),
+                                  hn::Mul(hn::Set(d, row[2]), world[2]));
+            inside = hn::And(inside, hn::And(hn::Ge(index[axis], hn::Set(d, field.boxMin[axis])),
+                                             hn::Le(index[axis], hn::Set(d, field.boxMax[axis]))));
+        }
+        hn::Vec<Ints> voxel[3];
+        for (int axis = 0; axis < 3; ++axis) {
+            // Points outside are looked up at the box's corner instead, so that every address is a good one.
+            const auto safe = hn::IfThenElse(inside, index[axis], hn::Set(d, field.boxMin[axis]));
+            const auto floored = hn::Floor(safe);
+            voxel[axis] = hn::DemoteTo(di, floored);
+            hn::StoreU(hn::DemoteTo(df, hn::Sub(safe, floored)), df, chunk.at[axis] + i);
+        }
+        const auto mask = hn::Set(di, BlockLayout::kLeafSide - 1);
+        const auto offset = hn::Add(hn::Add(hn::Mul(hn::And(voxel[0], mask), hn::Set(di, kStrideX)),
+                                            hn::Mul(hn::And(voxel[1], mask), hn::Set(di, kStrideY))),
+                                    hn::And(voxel[2], mask));
+        hn::StoreU(offset, di, chunk.offset + i);
+        hn::StoreU(entriesOf(field.directory, voxel), di, chunk.entry + i);
+        std::uint8_t bits[8] = {};
+        hn::StoreMaskBits(d, inside, bits);
+        const std::uint64_t outside = ~std::uint64_t(bits[0]) & ((std::uint64_t(1) << lanes) - 1);
+        chunk.outside |= outside << i;
+    }
+}
+
+// Looks up the chunk's first `count` points, all of them in blocks, and writes the results to samples[which[i]].
+template <Storage storage>
+void lookUpBlocks(const VectorField& field, const Chunk& chunk, const std::uint8_t* which, int count,
+                  PointSample* samples)
+{
+    using Type = typename Stored<storage>::Type;
+    const Type* values = static_cast<const Type*>(field.values);
+    for (int i = 0; i < count; i += kPointsPerVector) {
+        const int used = count - i < kPointsPerVector ? count - i : kPointsPerVector;
+        const Type* from[kPointsPerVector];
+        float offset[4] = {};
+        float step[4] = {};
+        for (int k = 0; k < kPointsPerVector; ++k) {
+            const int p = k < used ? i + k : i;
+            const std::size_t block = std::size_t(chunk.entry[p]);
+            from[k] = values + block * BlockLayout::kSize + chunk.offset[p];
+            if constexpr (storage == Storage::Fixed8) {
+                offset[k] = field.ranges[block].offset;
+                step[k] = field.ranges[block].step;
+            }
+        }
+        V sample = interpolate<storage>(from, chunk.at[0] + i, chunk.at[1] + i, chunk.at[2] + i);
+        if constexpr (storage == Storage::Fixed8) {
+            alignas(16) static constexpr float kPhiOnly[4] = {1.0f, 0.0f, 0.0f, 0.0f};
+            sample = hn::Add(hn::Mul(sample, ofEachPoint(step)), hn::Mul(ofEachPoint(offset), everyPoint(kPhiOnly)));
+        }
+        sample = toWorld(field, sample);
+        if (used == kPointsPerVector && which[i + used - 1] - which[i] == used - 1) {
+            hn::StoreU(sample, Lanes(), &samples[which[i]].phi);
+            continue;
+        }
+        PointSample results[kPointsPerVector];
+        hn::StoreU(sample, Lanes(), &results[0].phi);
+        for (int k = 0; k < used; ++k) samples[which[i + k]] = results[k];
+    }
+}
+
+// Answers what lies in tiles, notes what lies outside, and moves the rest together to the front of the chunk.
+struct Sorted {
+    std::uint8_t which[kPointsPerChunk]; // the numbers of those in blocks
+    int inBlocks = 0;
+    int outside = 0;
+};
+Sorted sortOut(const VectorField& field, Chunk& chunk, int count, PointSample* samples, int* outside)
+{
+    Sorted sorted;
+    for (int i = 0; i < count; ++i) {
+        if ((chunk.outside >> i & 1) != 0) {
+            outside[sorted.outside++] = i;
+        } else if (chunk.entry[i] >= 0) {
+            const int to = sorted.inBlocks++;
+            sorted.which[to] = std::uint8_t(i);
+            if (to == i) continue;
+            for (auto& axis : chunk.at) axis[to] = axis[i];
+            chunk.entry[to] = chunk.entry[i];
+            chunk.offset[to] = chunk.offset[i];
+        } else {
+            samples[i] = {field.directory.tileValues[~chunk.entry[i]], {0.0f, 0.0f, 0.0f}};
+        }
+    }
+    return sorted;
+}
+
+void locatePadded(const VectorField& field, const Vec3d* points, int count, Chunk& chunk)
+{
+    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+    if (count % int(hn::MaxLanes(Doubles())) == 0) {
+        locate(field, points->data(), count, chunk);
+        return;
+    }
+    double padded[3 * (kPointsPerChunk + kSlack)] = {};
+    for (int i = 0; i < 3 * count; ++i) padded[i] = points->data()[i];
+    locate(field, padded, count, chunk);
+}
+
+void find(const VectorField& field, const Vec3d* points, int count, std::int32_t* entries)
+{
+    Chunk chunk;
+    locatePadded(field, points, count, chunk);
+    for (int i = 0; i < count; ++i) entries[i] = (chunk.outside >> i & 1) != 0 ? -1 : chunk.entry[i];
+}
+
+int lookUp(const VectorField& field, const Vec3d* points, int count, PointSample* samples, int* outside)
+{
+    Chunk chunk;
+    locatePadded(field, points, count, chunk);
+    const Sorted sorted = sortOut(field, chunk, count, samples, outside);
+    switch (field.storage) {
+    case Storage::Float: lookUpBlocks<Storage::Float>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
+    case Storage::Half: lookUpBlocks<Storage::Half>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
+    case Storage::Fixed8: lookUpBlocks<Storage::Fixed8>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
+    }
+    return sorted.outside;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vdbounce
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vdbounce {
+
+HWY_EXPORT(find);
+HWY_EXPORT(lookUp);
+
+void findEntries(const VectorField& field, const Vec3d* points, int count, std::int32_t* entries)
+{
+    HWY_DYNAMIC_DISPATCH(find)(field, points, count, entries);
+}
+
+int lookUpChunk(const VectorField& field, const Vec3d* points, int count, PointSample* samples, int* outside)
+{
+    return HWY_DYNAMIC_DISPATCH(lookUp)(field, points, count, samples, outside);
+}
+
+std::vector<std::string> vectorTargets()
+{
+    // The last is the one that any processor can run.
+    std::vector<std::string> names;
+    for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));
+    if (names.empty() || names.back() != hwy::TargetName(HWY_STATIC_TARGET)) {
+        names.push_back(hwy::TargetName(HWY_STATIC_TARGET));
+    }
+    return names;
+}
+
+void chooseVectorTarget(const std::string& name)
+{
+    std::int64_t chosen = name.empty() ? hwy::SupportedTargets() : HWY_STATIC_TARGET;
+    for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (name == hwy::TargetName(target)) chosen = target;
+    }
+    hwy::GetChosenTarget().Update(chosen);
+}
+
+} // namespace vdbounce
+#endif
