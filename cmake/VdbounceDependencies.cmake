@@ -6,6 +6,7 @@ find_dependency(Threads)
 find_dependency(Eigen3 3.4)
 find_dependency(TBB)
 find_dependency(PNG)
+find_dependency(hwy 1.0)
 
 # OpenVDB comes with a find module, not a package configuration; Debian puts it beside the library.
 if(NOT TARGET OpenVDB::openvdb)

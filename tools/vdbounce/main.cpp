@@ -65,6 +65,7 @@ int run(int argc, char** argv)
     addCollide(app, common);
     addRender(app, common);
     addSlice(app, common);
+    addBench(app, common);
     for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) addCommonOptions(*verb, common);
 
     try {

@@ -24,6 +24,7 @@ void addConvert(CLI::App& app, const CommonOptions& common);
 void addCollide(CLI::App& app, const CommonOptions& common);
 void addRender(CLI::App& app, const CommonOptions& common);
 void addSlice(CLI::App& app, const CommonOptions& common);
+void addBench(CLI::App& app, const CommonOptions& common);
 
 /// Runs `body` with the number of threads that the user asked for.
 void runWith(const CommonOptions& common, const std::function<void()>& body);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace vdbounce::bench {
+
+/// The same work done by someone else, in the same run.
+struct Peer {
+    std::string name;
+    double value = 0.0;
+};
+
+/// One measured figure; where there is a peer, both are the median of the same number of runs, taken in turn.
+struct Case {
+    std::string name;
+    std::string unit;
+    double value = 0.0;
+    std::optional<Peer> peer;
+
+    /// Peer over ours: above 1 we are ahead.
+    double ratio() const { return peer->value / value; }
+};
+
+using Cases = std::vector<Case>;
+
+} // namespace vdbounce::bench
