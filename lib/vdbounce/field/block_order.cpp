@@ -12,8 +12,8 @@ namespace {
 // tenth more.
 constexpr std::size_t kGroupBytes = std::size_t(96) << 10;
 
-// Bytes of voxels below which random access is cheap enough: they stay in a third-level cache.
-constexpr std::size_t kCheapBytes = std::size_t(12) << 20;
+// Bytes of voxels below which random access is cheap enough: most of them stay in a third-level cache.
+constexpr std::size_t kCheapBytes = std::size_t(48) << 20;
 
 // Points a block at least: fewer share too little.
 constexpr std::size_t kPointsPerBlock = 16;
@@ -46,10 +46,10 @@ bool BlockOrder::pays(const VectorField& field, std::size_t blockCount, const Ve
     std::size_t inBlocks = 0;
     std::size_t changes = 0;
     for (std::size_t stretch = 0; stretch < kStretches; ++stretch) {
-        std::int32_t entries[kPointsPerChunk];
-        findEntries(field, points + (count - kPointsPerChunk) / kStretches * stretch, kPointsPerChunk, entries);
+        PointChunk chunk;
+        locatePoints(field, points + (count - kPointsPerChunk) / kStretches * stretch, kPointsPerChunk, chunk);
         std::size_t last = std::size_t(-1);
-        for (std::int32_t entry : entries) {
+        for (std::int32_t entry : chunk.entry) {
             if (entry < 0) continue;
             const std::size_t group = std::size_t(entry) / perGroup;
             ++inBlocks;
@@ -71,12 +71,12 @@ const std::vector<std::uint32_t>& BlockOrder::order(const VectorField& field, st
     places_.assign(tasks * groupCount, 0);
     forEachBlock(count, kPointsPerTask, [&](std::size_t task, IndexRange range) {
         std::uint32_t* counts = places_.data() + task * groupCount;
-        std::int32_t entries[kPointsPerChunk];
+        PointChunk chunk;
         for (std::size_t begin = range.begin; begin < range.end; begin += kPointsPerChunk) {
             const std::size_t size = std::min(range.end - begin, std::size_t(kPointsPerChunk));
-            findEntries(field, points + begin, int(size), entries);
+            locatePoints(field, points + begin, int(size), chunk);
             for (std::size_t i = 0; i < size; ++i) {
-                const std::size_t group = entries[i] < 0 ? 0 : 1 + std::size_t(entries[i]) / perGroup;
+                const std::size_t group = chunk.entry[i] < 0 ? 0 : 1 + std::size_t(chunk.entry[i]) / perGroup;
                 groups_[begin + i] = std::uint16_t(group);
                 ++counts[group];
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/base/huge_page_allocator.h"
 #include "vdbounce/field/block_layout.h"
 
 #include <cstddef>
@@ -13,10 +14,13 @@ namespace vdbounce {
 /// error. M is the largest |phi| in the field; R is the largest difference between values in one leaf and its halo,
 /// about 6 voxels for a band of 3.
 enum class Storage {
-    Float,  ///< as read: 5,808 bytes a leaf
-    Half,   ///< 16-bit floats of phi / M: 2,904 bytes a leaf; each value off by at most |phi| / 2048 + 2e-9 M
-    Fixed8, ///< 8 bits between the leaf's smallest and largest value: 1,460 bytes a leaf; each value off by R / 510
+    Float,  ///< as read: 5,324 bytes a leaf
+    Half,   ///< 16-bit floats of phi / M: 2,662 bytes a leaf; each value off by at most |phi| / 2048 + 2e-9 M
+    Fixed8, ///< 8 bits between the leaf's smallest and largest value: 1,339 bytes a leaf; each value off by R / 510
 };
+
+/// Values of all blocks, one after the other.
+template <class T> using BlockArray = std::vector<T, HugePageAllocator<T>>;
 
 /// The values of all blocks of a field, stored as one of the above.
 class BlockValues {
@@ -46,9 +50,9 @@ public:
     std::size_t memoryBytes() const;
 
     // The values as they lie in memory, for the lookup; of the three only that of the storage in use is not empty.
-    const std::vector<float>& floats() const { return floats_; }
-    const std::vector<std::uint16_t>& halves() const { return halves_; }
-    const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+    const BlockArray<float>& floats() const { return floats_; }
+    const BlockArray<std::uint16_t>& halves() const { return halves_; }
+    const BlockArray<std::uint8_t>& bytes() const { return bytes_; }
     /// Of bytes: one a block.
     const std::vector<Range>& ranges() const { return ranges_; }
     /// Of halves: value = half * halfUnit, a power of two.
@@ -58,9 +62,9 @@ private:
     Storage storage_ = Storage::Float;
     std::size_t blockCount_ = 0;
     float halfUnit_ = 1.0f;
-    std::vector<float> floats_;
-    std::vector<std::uint16_t> halves_;
-    std::vector<std::uint8_t> bytes_;
+    BlockArray<float> floats_;
+    BlockArray<std::uint16_t> halves_;
+    BlockArray<std::uint8_t> bytes_;
     std::vector<Range> ranges_;
 };
 

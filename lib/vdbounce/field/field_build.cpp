@@ -103,10 +103,6 @@ void gatherBlock(FloatGrid::ConstAccessor& accessor, const Vec3i& origin, float 
         const auto* leaf = accessor.probeConstLeaf(voxel);
         copyFrom(leaf, leaf == nullptr ? accessor.getValue(voxel) : 0.0f, side, block);
     }
-    // The rows' padding: a value of the block, so that it is within its range.
-    for (int row = 0; row < BlockLayout::kRows * BlockLayout::kRows; ++row) {
-        block[row * BlockLayout::kRow + BlockLayout::kRow - 1] = block[0];
-    }
 }
 
 void requireFinite(const FloatGrid& grid, const Vec3i& origin, const float (&block)[BlockLayout::kSize])

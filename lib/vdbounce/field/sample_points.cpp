@@ -26,6 +26,44 @@ bool vectorCodeAnswers(const DistanceField& field)
            field.blocks().directory().nodes != nullptr;
 }
 
+// Answers those points of a chunk that are not in blocks, and moves the others to its front. Returns how many those
+// are; `which` tells their numbers.
+int sortOut(const DistanceField& field, const VectorField& vectorField, const Vec3d* points, int count,
+            PointChunk& chunk, std::uint8_t (&which)[kPointsPerChunk], PointSample* samples)
+{
+    int inBlocks = 0;
+    for (int i = 0; i < count; ++i) {
+        if ((chunk.outside >> i & 1) != 0) {
+            samples[i] = sampleOne(field, points[i]);
+        } else if (chunk.entry[i] < 0) {
+            samples[i] = {vectorField.directory.tileValues[~chunk.entry[i]], {0.0f, 0.0f, 0.0f}};
+        } else {
+            const int to = inBlocks++;
+            which[to] = std::uint8_t(i);
+            for (auto& axis : chunk.at) axis[to] = axis[i];
+            chunk.entry[to] = chunk.entry[i];
+            chunk.offset[to] = chunk.offset[i];
+        }
+    }
+    return inBlocks;
+}
+
+void sampleChunk(const DistanceField& field, const VectorField& vectorField, const Vec3d* points, int count,
+                 PointSample* samples)
+{
+    PointChunk chunk;
+    const bool allInBlocks = locatePoints(vectorField, points, count, chunk);
+    if (allInBlocks && count == kPointsPerChunk) {
+        interpolatePoints(vectorField, chunk, count, samples);
+        return;
+    }
+    std::uint8_t which[kPointsPerChunk];
+    PointSample results[kPointsPerChunk];
+    const int inBlocks = sortOut(field, vectorField, points, count, chunk, which, samples);
+    interpolatePoints(vectorField, chunk, inBlocks, results);
+    for (int i = 0; i < inBlocks; ++i) samples[which[i]] = results[i];
+}
+
 } // namespace
 
 VectorField::VectorField(const DistanceField& field)
@@ -58,15 +96,6 @@ VectorField::VectorField(const DistanceField& field)
 }
 
 namespace {
-
-// Looks up to kPointsPerChunk points up, in whatever way each of them needs.
-void sampleChunk(const DistanceField& field, const VectorField& vectorField, const Vec3d* points, int count,
-                 PointSample* samples)
-{
-    int outside[kPointsPerChunk];
-    const int left = lookUpChunk(vectorField, points, count, samples, outside);
-    for (int k = 0; k < left; ++k) samples[outside[k]] = sampleOne(field, points[outside[k]]);
-}
 
 void sampleInGivenOrder(const DistanceField& field, const VectorField& vectorField, const Vec3d* points,
                         std::size_t count, PointSample* samples)

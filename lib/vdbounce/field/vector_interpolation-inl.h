@@ -30,7 +30,7 @@ constexpr int kStrideY = BlockLayout::kStrideY;
 constexpr int kLanesPerPoint = 4;
 
 // Rows of four values, one a point, each from its own address.
-template <class D, class T> hn::Vec<D> rows(D d, const T* const* from, int offset)
+template <class D, class T> HWY_INLINE hn::Vec<D> rows(D d, const T* const* from, int offset)
 {
     if constexpr (int(hn::MaxLanes(D())) <= kLanesPerPoint) {
         return hn::LoadU(d, from[0] + offset);
@@ -47,11 +47,11 @@ constexpr int kPointsPerVector = int(hn::MaxLanes(Lanes())) / kLanesPerPoint;
 template <Storage storage> struct Stored;
 template <> struct Stored<Storage::Float> {
     using Type = float;
-    static hn::Vec<Lanes> load(const float* const* from, int offset) { return rows(Lanes(), from, offset); }
+    static HWY_INLINE hn::Vec<Lanes> load(const float* const* from, int offset) { return rows(Lanes(), from, offset); }
 };
 template <> struct Stored<Storage::Half> {
     using Type = std::uint16_t;
-    static hn::Vec<Lanes> load(const std::uint16_t* const* from, int offset)
+    static HWY_INLINE hn::Vec<Lanes> load(const std::uint16_t* const* from, int offset)
     {
         const hn::Rebind<hwy::float16_t, Lanes> dh;
         return hn::PromoteTo(Lanes(), hn::BitCast(dh, rows(hn::Rebind<std::uint16_t, Lanes>(), from, offset)));
@@ -59,7 +59,7 @@ template <> struct Stored<Storage::Half> {
 };
 template <> struct Stored<Storage::Fixed8> {
     using Type = std::uint8_t;
-    static hn::Vec<Lanes> load(const std::uint8_t* const* from, int offset)
+    static HWY_INLINE hn::Vec<Lanes> load(const std::uint8_t* const* from, int offset)
     {
         const hn::Rebind<std::int32_t, Lanes> di;
         return hn::ConvertTo(Lanes(), hn::PromoteTo(di, rows(hn::Rebind<std::uint8_t, Lanes>(), from, offset)));
@@ -69,24 +69,25 @@ template <> struct Stored<Storage::Fixed8> {
 using V = hn::Vec<Lanes>;
 
 // The same four values for every point.
-V everyPoint(const float (&values)[4]) { return hn::LoadDup128(Lanes(), values); }
+HWY_INLINE V everyPoint(const float (&values)[4]) { return hn::LoadDup128(Lanes(), values); }
 
 // Lane k of the four values that begin at `values` for all lanes of point k.
-V ofEachPoint(const float* values)
+HWY_INLINE V ofEachPoint(const float* values)
 {
     alignas(64) static constexpr std::int32_t kPoint[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
     const Lanes d;
     return hn::TableLookupLanes(hn::LoadDup128(d, values), hn::SetTableIndices(d, kPoint));
 }
 
-V blend(V low, V high, V lowWeight, V highWeight)
+HWY_INLINE V blend(V low, V high, V lowWeight, V highWeight)
 {
     return hn::Add(hn::Mul(low, lowWeight), hn::Mul(high, highWeight));
 }
 
 // (phi, gx, gy, gz) of kPointsPerVector points in stored units and index space, in the four lanes of each.
 template <Storage storage>
-V interpolate(const typename Stored<storage>::Type* const* from, const float* x, const float* y, const float* z)
+HWY_INLINE V interpolate(const typename Stored<storage>::Type* const* from, const float* x, const float* y,
+                         const float* z)
 {
     const Lanes d;
     const V one = hn::Set(d, 1.0f);
@@ -95,15 +96,16 @@ V interpolate(const typename Stored<storage>::Type* const* from, const float* x,
     const V z1 = ofEachPoint(z);
     const V x0 = hn::Sub(one, x1);
     const V y0 = hn::Sub(one, y1);
-    const auto row = [&](int i, int j) { return Stored<storage>::load(from, i * kStrideX + j * kStrideY); };
 
     V phi[4];   // along x, at the four places along y
     V twice[2]; // twice the central differences along x, at the two middle ones
     for (int j = 0; j < 4; ++j) {
-        const V below = row(1, j);
-        const V above = row(2, j);
+        const V below = Stored<storage>::load(from, kStrideX + j * kStrideY);
+        const V above = Stored<storage>::load(from, 2 * kStrideX + j * kStrideY);
         phi[j] = blend(below, above, x0, x1);
-        if (j == 1 || j == 2) twice[j - 1] = blend(hn::Sub(above, row(0, j)), hn::Sub(row(3, j), below), x0, x1);
+        if (j == 1 || j == 2)
+            twice[j - 1] = blend(hn::Sub(above, Stored<storage>::load(from, j * kStrideY)),
+                                 hn::Sub(Stored<storage>::load(from, 3 * kStrideX + j * kStrideY), below), x0, x1);
     }
     const V value = blend(phi[1], phi[2], y0, y1);
     const V alongX = blend(twice[0], twice[1], y0, y1);
@@ -135,7 +137,7 @@ V interpolate(const typename Stored<storage>::Type* const* from, const float* x,
 }
 
 // From stored units and index space to the world's.
-V toWorld(const VectorField& field, V sample)
+HWY_INLINE V toWorld(const VectorField& field, V sample)
 {
     V world = hn::Mul(hn::Broadcast<0>(sample), everyPoint(field.columns[0]));
     world = hn::Add(world, hn::Mul(hn::Broadcast<1>(sample), everyPoint(field.columns[1])));

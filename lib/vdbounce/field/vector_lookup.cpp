@@ -21,17 +21,6 @@ namespace vdbounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Room behind the chunk's last point, for vectors that reach beyond it.
-constexpr int kSlack = 16;
-
-// What a point needs to be looked up in its block.
-struct Chunk {
-    alignas(64) float at[3][kPointsPerChunk + kSlack]; // place in its cell, 0 to 1
-    alignas(64) std::int32_t entry[kPointsPerChunk + kSlack];
-    alignas(64) std::int32_t offset[kPointsPerChunk + kSlack];
-    std::uint64_t outside = 0; // a bit for each point
-};
-
 using Doubles = hn::CappedTag<double, 8>;
 using Ints = hn::Rebind<std::int32_t, Doubles>;
 using Floats = hn::Rebind<float, Doubles>;
@@ -56,13 +45,15 @@ hn::Vec<Ints> entriesOf(const LeafBlocks::Directory& directory, const hn::Vec<In
     return hn::IfThenElse(isTile, number, hn::GatherIndex(d, directory.entries, place));
 }
 
-// Finds the cells of the points. Reads whole vectors, so `points` must go on to the end of the last one.
-void locate(const VectorField& field, const double* points, int count, Chunk& chunk)
+// Reads whole vectors, so `points` must go on to the end of the last one.
+bool locateWhole(const VectorField& field, const double* points, int count, PointChunk& chunk)
 {
     const Doubles d;
     const Ints di;
     const Floats df;
     const int lanes = int(hn::Lanes(d));
+    chunk.outside = 0;
+    auto anyTile = hn::Zero(di); // negative where any entry is
     for (int i = 0; i < count; i += lanes) {
         hn::Vec<Doubles> world[3];
         hn::LoadInterleaved3(d, points + 3 * i, world[0], world[1], world[2]);
@@ -89,28 +80,39 @@ void locate(const VectorField& field, const double* points, int count, Chunk& ch
                                             hn::Mul(hn::And(voxel[1], mask), hn::Set(di, kStrideY))),
                                     hn::And(voxel[2], mask));
         hn::StoreU(offset, di, chunk.offset + i);
-        hn::StoreU(entriesOf(field.directory, voxel), di, chunk.entry + i);
+        const auto entries = entriesOf(field.directory, voxel);
+        hn::StoreU(entries, di, chunk.entry + i);
+        anyTile = hn::Or(anyTile, entries);
         std::uint8_t bits[8] = {};
         hn::StoreMaskBits(d, inside, bits);
         const std::uint64_t outside = ~std::uint64_t(bits[0]) & ((std::uint64_t(1) << lanes) - 1);
         chunk.outside |= outside << i;
     }
+    return chunk.outside == 0 && hn::AllFalse(di, hn::Lt(anyTile, hn::Zero(di)));
 }
 
-// Looks up the chunk's first `count` points, all of them in blocks, and writes the results to samples[which[i]].
+bool locate(const VectorField& field, const Vec3d* points, int count, PointChunk& chunk)
+{
+    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+    if (count % int(hn::MaxLanes(Doubles())) == 0) {
+        return locateWhole(field, points->data(), count, chunk);
+    }
+    double padded[3 * kPointsPerChunk] = {};
+    for (int i = 0; i < 3 * count; ++i) padded[i] = points->data()[i];
+    return locateWhole(field, padded, count, chunk);
+}
+
 template <Storage storage>
-void lookUpBlocks(const VectorField& field, const Chunk& chunk, const std::uint8_t* which, int count,
-                  PointSample* samples)
+void interpolateStored(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
 {
     using Type = typename Stored<storage>::Type;
     const Type* values = static_cast<const Type*>(field.values);
     for (int i = 0; i < count; i += kPointsPerVector) {
-        const int used = count - i < kPointsPerVector ? count - i : kPointsPerVector;
         const Type* from[kPointsPerVector];
         float offset[4] = {};
         float step[4] = {};
         for (int k = 0; k < kPointsPerVector; ++k) {
-            const int p = k < used ? i + k : i;
+            const int p = i + k < count ? i + k : i;
             const std::size_t block = std::size_t(chunk.entry[p]);
             from[k] = values + block * BlockLayout::kSize + chunk.offset[p];
             if constexpr (storage == Storage::Fixed8) {
@@ -123,73 +125,17 @@ void lookUpBlocks(const VectorField& field, const Chunk& chunk, const std::uint8
             alignas(16) static constexpr float kPhiOnly[4] = {1.0f, 0.0f, 0.0f, 0.0f};
             sample = hn::Add(hn::Mul(sample, ofEachPoint(step)), hn::Mul(ofEachPoint(offset), everyPoint(kPhiOnly)));
         }
-        sample = toWorld(field, sample);
-        if (used == kPointsPerVector && which[i + used - 1] - which[i] == used - 1) {
-            hn::StoreU(sample, Lanes(), &samples[which[i]].phi);
-            continue;
-        }
-        PointSample results[kPointsPerVector];
-        hn::StoreU(sample, Lanes(), &results[0].phi);
-        for (int k = 0; k < used; ++k) samples[which[i + k]] = results[k];
+        hn::StoreU(toWorld(field, sample), Lanes(), &samples[i].phi);
     }
 }
 
-// Answers what lies in tiles, notes what lies outside, and moves the rest together to the front of the chunk.
-struct Sorted {
-    std::uint8_t which[kPointsPerChunk]; // the numbers of those in blocks
-    int inBlocks = 0;
-    int outside = 0;
-};
-Sorted sortOut(const VectorField& field, Chunk& chunk, int count, PointSample* samples, int* outside)
+void interpolateChunk(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
 {
-    Sorted sorted;
-    for (int i = 0; i < count; ++i) {
-        if ((chunk.outside >> i & 1) != 0) {
-            outside[sorted.outside++] = i;
-        } else if (chunk.entry[i] >= 0) {
-            const int to = sorted.inBlocks++;
-            sorted.which[to] = std::uint8_t(i);
-            if (to == i) continue;
-            for (auto& axis : chunk.at) axis[to] = axis[i];
-            chunk.entry[to] = chunk.entry[i];
-            chunk.offset[to] = chunk.offset[i];
-        } else {
-            samples[i] = {field.directory.tileValues[~chunk.entry[i]], {0.0f, 0.0f, 0.0f}};
-        }
-    }
-    return sorted;
-}
-
-void locatePadded(const VectorField& field, const Vec3d* points, int count, Chunk& chunk)
-{
-    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
-    if (count % int(hn::MaxLanes(Doubles())) == 0) {
-        locate(field, points->data(), count, chunk);
-        return;
-    }
-    double padded[3 * (kPointsPerChunk + kSlack)] = {};
-    for (int i = 0; i < 3 * count; ++i) padded[i] = points->data()[i];
-    locate(field, padded, count, chunk);
-}
-
-void find(const VectorField& field, const Vec3d* points, int count, std::int32_t* entries)
-{
-    Chunk chunk;
-    locatePadded(field, points, count, chunk);
-    for (int i = 0; i < count; ++i) entries[i] = (chunk.outside >> i & 1) != 0 ? -1 : chunk.entry[i];
-}
-
-int lookUp(const VectorField& field, const Vec3d* points, int count, PointSample* samples, int* outside)
-{
-    Chunk chunk;
-    locatePadded(field, points, count, chunk);
-    const Sorted sorted = sortOut(field, chunk, count, samples, outside);
     switch (field.storage) {
-    case Storage::Float: lookUpBlocks<Storage::Float>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
-    case Storage::Half: lookUpBlocks<Storage::Half>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
-    case Storage::Fixed8: lookUpBlocks<Storage::Fixed8>(field, chunk, sorted.which, sorted.inBlocks, samples); break;
+    case Storage::Float: interpolateStored<Storage::Float>(field, chunk, count, samples); break;
+    case Storage::Half: interpolateStored<Storage::Half>(field, chunk, count, samples); break;
+    case Storage::Fixed8: interpolateStored<Storage::Fixed8>(field, chunk, count, samples); break;
     }
-    return sorted.outside;
 }
 
 } // namespace HWY_NAMESPACE
@@ -199,17 +145,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vdbounce {
 
-HWY_EXPORT(find);
-HWY_EXPORT(lookUp);
+HWY_EXPORT(locate);
+HWY_EXPORT(interpolateChunk);
 
-void findEntries(const VectorField& field, const Vec3d* points, int count, std::int32_t* entries)
+bool locatePoints(const VectorField& field, const Vec3d* points, int count, PointChunk& chunk)
 {
-    HWY_DYNAMIC_DISPATCH(find)(field, points, count, entries);
+    return HWY_DYNAMIC_DISPATCH(locate)(field, points, count, chunk);
 }
 
-int lookUpChunk(const VectorField& field, const Vec3d* points, int count, PointSample* samples, int* outside)
+void interpolatePoints(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
 {
-    return HWY_DYNAMIC_DISPATCH(lookUp)(field, points, count, samples, outside);
+    HWY_DYNAMIC_DISPATCH(interpolateChunk)(field, chunk, count, samples);
 }
 
 std::vector<std::string> vectorTargets()

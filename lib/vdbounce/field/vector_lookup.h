@@ -34,19 +34,30 @@ struct VectorField {
 /// stays in the first-level cache.
 constexpr int kPointsPerChunk = 64;
 
-/// Trilinear phi and central-difference gradient of up to kPointsPerChunk points. Those outside the box are left out,
-/// and their numbers put into `outside`. Returns how many those are. Needs VectorField::directory.nodes.
-int lookUpChunk(const VectorField& field, const Vec3d* points, int count, PointSample* samples, int* outside);
+/// Where points lie in the field.
+struct PointChunk {
+    // Vectors read on beyond the last point.
+    static constexpr int kRoom = kPointsPerChunk + 4;
 
-/// The directory entries of up to kPointsPerChunk points: block numbers, or below 0 for points in tiles and outside the
-/// box. Needs VectorField::directory.nodes.
-void findEntries(const VectorField& field, const Vec3d* points, int count, std::int32_t* entries);
+    alignas(64) float at[3][kRoom];                   ///< the place in the cell, 0 to 1
+    alignas(64) std::int32_t entry[kPointsPerChunk];  ///< the directory's entry: a block's number or ~tile
+    alignas(64) std::int32_t offset[kPointsPerChunk]; ///< where in the block the 4^3 values around the cell begin
+    std::uint64_t outside; ///< a bit for each point that is not in the box; the rest of it means nothing
+};
+
+/// Finds the cells of up to kPointsPerChunk points. Returns whether all of them are in blocks. Needs
+/// VectorField::directory.nodes.
+bool locatePoints(const VectorField& field, const Vec3d* points, int count, PointChunk& chunk);
+
+/// Trilinear phi and central-difference gradient of the chunk's first `count` points, all of which must be in blocks.
+/// `samples` needs room for the next multiple of 4.
+void interpolatePoints(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples);
 
 /// The kinds of processor that the vector code was compiled for and that this machine can run, best first.
 std::vector<std::string> vectorTargets();
 
-/// Makes lookUpChunk use one of vectorTargets(); an empty name stands for the best. For tests and measurements: results
-/// do not depend on it. Not safe while lookups run.
+/// Makes both of them use one of vectorTargets(); an empty name stands for the best. For tests and measurements:
+/// results do not depend on it. Not safe while lookups run.
 void chooseVectorTarget(const std::string& name);
 
 } // namespace vdbounce
