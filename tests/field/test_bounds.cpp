@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/grids.h"
+#include "support/meshes.h"
 #include "support/random.h"
 
+#include "vdbounce/build/mesh_to_level_set.h"
 #include "vdbounce/field/distance_field.h"
 #include "vdbounce/field/plane_field.h"
+#include "vdbounce/io/mesh_file.h"
 
 #include <openvdb/tools/SignedFloodFill.h>
 
@@ -38,8 +41,16 @@ TEST_CASE("the box rule: a half space that its box cuts off")
     CHECK(field.clipped());
     const Interval bounds = field.bounds(Vec3d(0.5, 0.5, -0.5));
     CHECK(bounds.lower == Approx(-0.75).margin(1e-6));
-    CHECK(bounds.upper == Approx(-std::hypot(0.5, 0.25)).margin(1e-6));
-    CHECK(field.phi(Vec3d(0.5, 0.5, -0.5)) < 0.0);
+    CHECK(bounds.upper >= -0.75);
+    CHECK(field.phi(Vec3d(0.5, 0.5, -0.5)) == Approx(-std::hypot(0.5, 0.25)).margin(1e-6));
+    // Beside the box the plane goes on, much nearer than the box: what lies there must not be ruled out.
+    VDBOUNCE_RANDOM(random);
+    for (int i = 0; i < 100000; ++i) {
+        const Vec3d p = std::pow(10.0, random.uniform(-2, 6)) * random.direction() + Vec3d(0.5, 0.5, 0.25);
+        const Interval around = field.bounds(p);
+        REQUIRE(around.lower <= p.z() - 0.25 + 1e-6 * (1 + p.norm()));
+        REQUIRE(around.upper >= p.z() - 0.25 - 1e-6 * (1 + p.norm()));
+    }
 }
 
 TEST_CASE("bounds hold the true distance anywhere in space")
@@ -126,4 +137,90 @@ TEST_CASE("bounds hold where the band inside is thinner than the one outside")
         REQUIRE(bounds.lower <= p.norm() - 1.0 + 1e-6);
         REQUIRE(bounds.upper >= p.norm() - 1.0 - 1e-6);
     }
+}
+
+namespace {
+
+// The union of two overlapping spheres, outside exact, inside and in between with a medial axis that creases.
+Phi twoSpheres(double radius, double apart)
+{
+    const Vec3d centre(apart, 0, 0);
+    return [=](const Vec3d& p) { return std::min((p - centre).norm(), (p + centre).norm()) - radius; };
+}
+
+} // namespace
+
+TEST_CASE("bounds are within half a leaf's diagonal of the truth anywhere in the box")
+{
+    VDBOUNCE_RANDOM(random);
+    const double halfLeaf = 4.0 * std::sqrt(3.0);
+    auto rotated = uniformTransform(1.0);
+    rotated->postRotate(0.6, openvdb::math::Y_AXIS);
+    // Apart, so that the distance is exact on both sides; in their middle and between them no way is the shortest.
+    for (const auto& transform : {uniformTransform(1.0), rotated}) {
+        const Phi phi = twoSpheres(25.0, 40.0);
+        const DistanceField field(levelSet(bandGrid(phi, transform, 70)));
+        double worst = 0.0;
+        for (int i = 0; i < 200000; ++i) {
+            const Vec3d p = i % 3 == 0   ? Vec3d(0, random.uniform(-20, 20), random.uniform(-20, 20))
+                            : i % 3 == 1 ? Vec3d(Vec3d(40, 0, 0) + 8 * random.uniform(0, 1) * random.direction())
+                                         : field.transform().toWorld(random.in(field.indexBox()));
+            if (!field.indexBox().contains(field.transform().toIndex(p))) continue;
+            const Interval bounds = field.bounds(p);
+            INFO("at " << p.transpose() << ": " << bounds.lower << " <= " << phi(p) << " <= " << bounds.upper);
+            REQUIRE(bounds.lower <= phi(p) + 1e-5);
+            REQUIRE(bounds.upper >= phi(p) - 1e-5);
+            worst = std::max({worst, phi(p) - bounds.lower, bounds.upper - phi(p)});
+        }
+        CHECK(worst <= halfLeaf);
+        CHECK(worst <= 2.5 * std::sqrt(3.0)); // what the header says
+    }
+}
+
+TEST_CASE("bounds hold brute-force distances to meshes")
+{
+    VDBOUNCE_RANDOM(random);
+    const TriangleMesh apart = joined(boxMesh(Vec3d(1, 0.3, 0.6)), sphereMesh(0.4, 3, Vec3d(0, 1.2, 0)));
+    for (const TriangleMesh& mesh : {apart, readMesh(std::string(VDBOUNCE_SOURCE_DIR) + "/data/bunny.obj")}) {
+        const Box box = boundingBox(mesh);
+        MeshToLevelSetOptions options;
+        options.voxelSize = box.size().maxCoeff() / 90;
+        const DistanceField field(meshToLevelSet(mesh, options).grid);
+        REQUIRE_FALSE(field.clipped());
+        for (int i = 0; i < 3000; ++i) {
+            // Half of them around the mesh and in it, half up to a million sizes away.
+            const double reach = i % 2 == 0 ? 0.6 : std::pow(10.0, random.uniform(-1, 6));
+            const Vec3d p = box.centre() + reach * random.uniform(0, 1) * box.size().norm() * random.direction();
+            const double distance = (bruteForceInside(mesh, p) ? -1.0 : 1.0) * bruteForceDistance(mesh, p);
+            const Interval bounds = field.bounds(p);
+            const double slack = 1e-6 * (options.voxelSize + std::abs(distance));
+            INFO("at " << p.transpose() << ": " << bounds.lower << " <= " << distance << " <= " << bounds.upper);
+            REQUIRE(bounds.lower <= distance + slack);
+            REQUIRE(bounds.upper >= distance - slack);
+        }
+    }
+}
+
+TEST_CASE("from anywhere inside the way to the nearest voxel outside leads out")
+{
+    VDBOUNCE_RANDOM(random);
+    Mat3d rows;
+    rows << 1.0, 0.3, 0, -0.2, 1.2, 0.3, 0, 0.2, 0.9;
+    for (const auto& transform : {uniformTransform(1.0), affineTransform(rows, Vec3d(5, 6, 7))}) {
+        const openvdb::Vec3d middle = transform->indexToWorld(openvdb::Vec3d(0));
+        const Vec3d centre(middle[0], middle[1], middle[2]);
+        const Phi phi = sphere(30.0, centre);
+        const DistanceField field(levelSet(bandGrid(phi, transform, 44)));
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3d p = centre + 30.0 * std::cbrt(random.uniform(0, 1)) * random.direction();
+            const auto outside = field.nearestOutside(p);
+            REQUIRE(outside.has_value());
+            REQUIRE(phi(*outside) > 0.0);
+            REQUIRE(field.phi(*outside) > 0.0);
+            REQUIRE((*outside - p).norm() <= -phi(p) + 3.5 * field.transform().voxelDiagonal());
+        }
+    }
+    auto empty = openvdb::FloatGrid::create(1.0f);
+    empty->setGridClass(openvdb::GRID_LEVEL_SET);
+    CHECK_FALSE(DistanceField(levelSet(empty)).nearestOutside(Vec3d::Zero()).has_value());
 }

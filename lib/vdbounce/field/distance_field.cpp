@@ -36,6 +36,7 @@ DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& optio
     if (options.lookup == Lookup::Cubic)
         lipschitz_ *= kSplineSteepness * (transform_.orthogonal() ? std::sqrt(3.0) : 3.0);
     clipped_ = surfaceReachesBox();
+    surface_ = SurfaceTree(blocks_, transform_, indexBox_, storageError_);
     worldBox_ = boxInWorld();
 }
 
@@ -169,53 +170,6 @@ FieldSample DistanceField::sampleOutside(const Vec3d& index) const
     const Vec3d sliding = alongBox(closest, offset, transform_.gradientToWorld(atBox.gradient));
     const Vec3d gradient = (offset + b * sliding) / magnitude;
     return {std::copysign(magnitude, b), std::copysign(1.0, b) * gradient};
-}
-
-Interval DistanceField::boundsInBox(const Vec3d& index) const
-{
-    const Cell cell(index);
-    // The true distance changes by at most the distance travelled, so every voxel bounds it from both sides; one that
-    // holds the background only says on which side and at least how far away the surface is.
-    const double diagonal = transform_.vectorToWorld(indexBox_.size()).norm();
-    Interval bounds{-diagonal, diagonal};
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3i offset(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
-        // A voxel beside the box knows nothing: its background is no distance where every voxel of the box is active.
-        const Vec3i voxel = cell.voxel + offset;
-        if (!indexBox_.contains(voxel.cast<double>())) continue;
-        const float value = blocks_.valueAt(voxel);
-        const double travelled = transform_.vectorToWorld(cell.at - offset.cast<double>()).norm();
-        if (value > -interior_) bounds.lower = std::max(bounds.lower, value - travelled);
-        if (value < background_) bounds.upper = std::min(bounds.upper, value + travelled);
-    }
-    return bounds;
-}
-
-Interval DistanceField::bounds(const Vec3d& world) const
-{
-    const double infinity = std::numeric_limits<double>::infinity();
-    const Vec3d index = transform_.toIndex(world);
-    if (indexBox_.contains(index)) return boundsInBox(index);
-    if (!index.allFinite()) return {kNotANumber, kNotANumber};
-    if (empty()) return {background_, infinity};
-    const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
-    const double a = transform_.vectorToWorld(index - closest).norm();
-    const Interval atBox = boundsInBox(closest);
-    Interval bounds{-a + std::min(atBox.lower, 0.0), a + std::max(atBox.upper, 0.0)};
-    // The angle between the way to the box and any way on to the surface within it is at least a right one.
-    if (atBox.lower > 0.0) bounds.lower = std::hypot(a, atBox.lower);
-    if (atBox.upper < 0.0) bounds.upper = -std::hypot(a, atBox.upper);
-    return bounds;
-}
-
-double DistanceField::freeDistance(const Vec3d& world, double phi) const
-{
-    phi -= jump_;
-    if (!clipped_ || phi <= 0.0) return phi;
-    // Beside a cut the sign changes where B does, which is no nearer than B tells.
-    const Vec3d index = transform_.toIndex(world);
-    if (indexBox_.contains(index)) return phi;
-    return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)) - jump_);
 }
 
 // The world box around the index box.

@@ -17,8 +17,8 @@ struct PointSample {
 ///
 /// Points may come in any order, and each sample depends on its own point only: the same bits whatever the order, the
 /// number of threads, and the processor's vector width (the best of AVX-512, AVX2 and SSE4 is chosen when the program
-/// runs). Within 4 units in the last place of the largest voxel value around the point of what sample() returns, the
-/// gradient within 4 of that value over the voxel's side. World positions are taken to voxels in double precision, so
+/// runs). Within 8 units in the last place of the largest voxel value around the point of what sample() returns, the
+/// gradient within 8 of that value over the voxel's side. World positions are taken to voxels in double precision, so
 /// that this holds far from the origin too.
 ///
 /// Cost: with Lookup::Trilinear and Normal::Central (the default) 8 to 30 ns a point and thread, as the points' order,

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/field/surface_tree.h"
+
+#include "vdbounce/base/parallel.h"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace vdbounce {
+namespace {
+
+constexpr std::size_t kBlocksPerTask = 32;
+
+// Values are rounded, to half precision at worst where a file is stored so.
+constexpr double kRounding = 0x1p-10;
+
+// Interleaves the bits of leaf coordinates, so that leaves that are close in order are close in space (Morton 1966).
+std::uint64_t mortonCode(const Vec3i& leaf)
+{
+    std::uint64_t code = 0;
+    for (int bit = 0; bit < 21; ++bit) {
+        for (int axis = 0; axis < 3; ++axis) code |= (std::uint64_t(leaf[axis]) >> bit & 1) << (3 * bit + axis);
+    }
+    return code;
+}
+
+int cubeOf(int x, int y, int z) { return x / 2 * 16 + y / 2 * 4 + z / 2; }
+
+Vec3i voxelOf(int cube) { return Vec3i(cube / 16 * 2, cube / 4 % 4 * 2, cube % 4 * 2); }
+
+} // namespace
+
+struct SurfaceTree::Search {
+    Vec3d point; // in the frame
+    Cubes cubes;
+    Cube best{Vec3i::Zero(), std::numeric_limits<double>::infinity()};
+    double bestSquared = std::numeric_limits<double>::infinity();
+};
+
+SurfaceTree::SurfaceTree(const LeafBlocks& blocks, const LinearTransform& transform, const Box& indexBox, double error)
+{
+    // A reflection leaves distances as they are, so the signs of the triangle's diagonal do not matter.
+    const Eigen::HouseholderQR<Mat3d> qr(transform.indexToWorld());
+    frame_ = qr.matrixQR().triangularView<Eigen::Upper>();
+    const auto reach = float(0.5 * transform.voxelDiagonal() * (1.0 + kRounding) + error);
+
+    std::vector<Leaf> found(blocks.blockCount());
+    forEachIndex(blocks.blockCount(), kBlocksPerTask, [&](std::size_t b) {
+        float values[BlockLayout::kSize];
+        blocks.values().decode(b, values);
+        Leaf leaf{blocks.origins()[b], 0, 0};
+        for (int x = 0; x < BlockLayout::kLeafSide; ++x) {
+            for (int y = 0; y < BlockLayout::kLeafSide; ++y) {
+                const float* row =
+                    values + BlockLayout::kDiagonal + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY;
+                for (int z = 0; z < BlockLayout::kLeafSide; ++z) {
+                    if (std::abs(row[z]) > reach) continue;
+                    // A voxel beside the box holds the background, which is no distance where all of the box is active.
+                    if (!indexBox.contains((leaf.origin + Vec3i(x, y, z)).cast<double>())) continue;
+                    const std::uint64_t bit = std::uint64_t(1) << cubeOf(x, y, z);
+                    leaf.surface |= bit;
+                    if (row[z] > 0.0f) leaf.exits |= bit;
+                }
+            }
+        }
+        found[b] = leaf;
+    });
+    for (const Leaf& leaf : found) {
+        if (leaf.surface != 0) leaves_.push_back(leaf);
+    }
+    if (leaves_.empty()) return;
+    sortLeaves();
+    buildLevels();
+}
+
+void SurfaceTree::sortLeaves()
+{
+    Vec3i low = leaves_.front().origin;
+    for (const Leaf& leaf : leaves_) low = low.cwiseMin(leaf.origin);
+    std::vector<std::pair<std::uint64_t, Leaf>> coded;
+    for (const Leaf& leaf : leaves_) {
+        const Vec3i at = leaf.origin - low;
+        coded.emplace_back(mortonCode(at / BlockLayout::kLeafSide), leaf);
+    }
+    std::sort(coded.begin(), coded.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::transform(coded.begin(), coded.end(), leaves_.begin(), [](const auto& pair) { return pair.second; });
+}
+
+void SurfaceTree::buildLevels()
+{
+    levels_.emplace_back();
+    for (const Leaf& leaf : leaves_) {
+        Vec3i first = Vec3i::Constant(BlockLayout::kLeafSide);
+        Vec3i last = Vec3i::Zero();
+        for (int cube = 0; cube < 64; ++cube) {
+            if ((leaf.surface >> cube & 1) == 0) continue;
+            first = first.cwiseMin(voxelOf(cube));
+            last = last.cwiseMax(voxelOf(cube) + Vec3i::Ones());
+        }
+        levels_.back().push_back(boxOfCubes(leaf.origin + first, leaf.origin + last));
+    }
+    while (levels_.back().size() > 1) {
+        const std::vector<Box>& below = levels_.back();
+        std::vector<Box> boxes(blockCount(below.size(), kChildren));
+        for (std::size_t i = 0; i < below.size(); ++i) boxes[i / kChildren].add(below[i]);
+        levels_.push_back(std::move(boxes));
+    }
+}
+
+// The frame's box around all that is nearest to the voxels from the first to the last.
+Box SurfaceTree::boxOfCubes(const Vec3i& firstVoxel, const Vec3i& lastVoxel) const
+{
+    const Vec3d centre = frame_ * (0.5 * (firstVoxel + lastVoxel).cast<double>());
+    const Vec3d half = frame_.cwiseAbs() * (0.5 * (lastVoxel - firstVoxel + Vec3i::Ones()).cast<double>());
+    return Box{centre - half, centre + half};
+}
+
+std::optional<SurfaceTree::Cube> SurfaceTree::nearest(const Vec3d& index, Cubes cubes) const
+{
+    if (leaves_.empty()) return std::nullopt;
+    Search search;
+    search.point = frame_ * index;
+    search.cubes = cubes;
+    visit(levels_.size() - 1, 0, search);
+    if (!(search.bestSquared < std::numeric_limits<double>::infinity())) return std::nullopt;
+    search.best.distance = std::sqrt(search.bestSquared);
+    return search.best;
+}
+
+void SurfaceTree::visit(std::size_t level, std::size_t node, Search& search) const
+{
+    if (level == 0) {
+        const Leaf& leaf = leaves_[node];
+        for (std::uint64_t bits = leaf.*search.cubes; bits != 0; bits &= bits - 1) {
+            const Vec3i voxel = leaf.origin + voxelOf(__builtin_ctzll(bits));
+            const double squared = distanceSquared(boxOfCubes(voxel, voxel + Vec3i::Ones()), search.point);
+            if (squared >= search.bestSquared) continue;
+            search.bestSquared = squared;
+            search.best.voxel = voxel;
+        }
+        return;
+    }
+    // Nearest first, so that most of the others are not worth a visit.
+    const std::vector<Box>& boxes = levels_[level - 1];
+    const std::size_t first = node * kChildren;
+    const std::size_t count = std::min(kChildren, boxes.size() - first);
+    std::array<std::pair<double, std::size_t>, kChildren> children;
+    for (std::size_t i = 0; i < count; ++i) children[i] = {distanceSquared(boxes[first + i], search.point), first + i};
+    std::sort(children.begin(), children.begin() + std::ptrdiff_t(count));
+    for (std::size_t i = 0; i < count && children[i].first < search.bestSquared; ++i) {
+        visit(level - 1, children[i].second, search);
+    }
+}
+
+std::size_t SurfaceTree::memoryBytes() const
+{
+    std::size_t bytes = leaves_.size() * sizeof(Leaf);
+    for (const auto& level : levels_) bytes += level.size() * sizeof(Box);
+    return bytes;
+}
+
+} // namespace vdbounce
