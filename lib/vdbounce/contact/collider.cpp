@@ -78,4 +78,19 @@ bool ColliderSet::normalAt(std::size_t collider, const Vec3d& position, Vec3d& n
     return true;
 }
 
+bool ColliderSet::wayOut(std::size_t collider, const Vec3d& position, Vec3d& direction, double& distance) const
+{
+    distance = 0.0;
+    if (normalAt(collider, position, direction)) return true;
+    const auto* field = std::get_if<std::shared_ptr<const DistanceField>>(&colliders_[collider].shape);
+    if (field == nullptr) return false; // a plane's gradient never vanishes
+    const auto outside = (*field)->nearestOutside(position);
+    if (!outside) return false;
+    direction = *outside - position;
+    distance = direction.norm();
+    if (!(distance > 0.0)) return false;
+    direction /= distance;
+    return true;
+}
+
 } // namespace vdbounce

@@ -43,6 +43,11 @@ public:
     /// inside or outside a narrow band and where it cancels out.
     bool normalAt(std::size_t collider, const Vec3d& position, Vec3d& normal) const;
 
+    /// The direction that leads out of a collider: the normal, or so deep in a narrow band that there is none, the
+    /// straight way to the nearest place known to be outside, with its length in `distance` (else 0). False where none
+    /// is known.
+    bool wayOut(std::size_t collider, const Vec3d& position, Vec3d& direction, double& distance) const;
+
     /// The smallest voxel side of all level sets, world units: no wall thinner than twice this can be told from
     /// nothing. Infinite where there are none.
     double smallestVoxel() const { return smallestVoxel_; }

@@ -3,7 +3,6 @@
 
 #include "vdbounce/field/field_build.h"
 #include "vdbounce/field/index_box.h"
-#include "vdbounce/field/lipschitz.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,13 +29,13 @@ DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& optio
     background_ = parts.background;
     interior_ = parts.interior;
     storageError_ = parts.storageError;
-    lipschitz_ = lipschitzBound(blocks_, transform_);
+    lipschitz_ = parts.lipschitz;
+    surface_ = std::move(parts.surface);
     if (options.lookup == Lookup::Nearest) jump_ = lipschitz_ * transform_.voxelDiagonal();
     // The three components of the spline's gradient may be steepest each for another cell's sake.
     if (options.lookup == Lookup::Cubic)
         lipschitz_ *= kSplineSteepness * (transform_.orthogonal() ? std::sqrt(3.0) : 3.0);
     clipped_ = surfaceReachesBox();
-    surface_ = SurfaceTree(blocks_, transform_, indexBox_, storageError_);
     worldBox_ = boxInWorld();
 }
 

@@ -49,8 +49,8 @@ public:
     /// lower <= true distance <= upper, provided that the grid's voxels hold true distances and that the surface lies
     /// in the grid's box. In the band within a voxel's diagonal of the truth, elsewhere in the box within two and a
     /// half; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the closest point for B. Where the box cuts the
-    /// surface off (clipped()), the bounds allow for any surface beyond. Cost: in the band 8 voxels, elsewhere about a
-    /// microsecond.
+    /// surface off (clipped()), the bounds allow for any surface beyond. Cost: in the band 8 voxels, elsewhere some
+    /// microseconds.
     Interval bounds(const Vec3d& world) const;
 
     /// A place outside, phi > 0 there, on the far side of the surface near `world`: a voxel's centre. From anywhere

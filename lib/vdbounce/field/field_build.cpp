@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/field/lipschitz.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/openvdb_grid.h"
 
@@ -150,22 +151,33 @@ float largestMagnitude(const FloatGrid& grid)
     return largest;
 }
 
-// Returns the largest difference between a voxel and what is kept of it.
-float fillBlocks(const FloatGrid& grid, Storage storage, LeafBlocks& blocks)
+// Fills the blocks, and finds out what must be known of every value while it is at hand.
+void fillBlocks(const FloatGrid& grid, Storage storage, FieldParts& parts)
 {
-    BlockValues& kept = blocks.valuesForWriting();
-    kept.allocate(storage, blocks.blockCount(), storage == Storage::Half ? largestMagnitude(grid) : 0.0f);
-    std::vector<float> errors(blockCount(blocks.blockCount(), kLeavesPerTask));
-    forEachBlock(blocks.blockCount(), kLeavesPerTask, [&](std::size_t task, IndexRange range) {
+    const std::vector<Vec3i>& origins = parts.blocks.origins();
+    BlockValues& kept = parts.blocks.valuesForWriting();
+    kept.allocate(storage, origins.size(), storage == Storage::Half ? largestMagnitude(grid) : 0.0f);
+    std::vector<SurfaceTree::Leaf> leaves(origins.size());
+    std::vector<float> errors(blockCount(origins.size(), kLeavesPerTask));
+    std::vector<double> steepest(errors.size(), 1.0);
+    forEachBlock(origins.size(), kLeavesPerTask, [&](std::size_t task, IndexRange range) {
         auto accessor = grid.getConstAccessor();
         float values[BlockLayout::kSize];
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            gatherBlock(accessor, blocks.origins()[i], values);
-            requireFinite(grid, blocks.origins()[i], values);
-            errors[task] = std::max(errors[task], kept.encode(i, values));
+            gatherBlock(accessor, origins[i], values);
+            requireFinite(grid, origins[i], values);
+            const float error = kept.encode(i, values);
+            if (storage != Storage::Float) kept.decode(i, values);
+            errors[task] = std::max(errors[task], error);
+            steepest[task] = steepestCell(values, parts.transform, steepest[task]);
+            leaves[i] = SurfaceTree::leafOf(values, origins[i], parts.indexBox, parts.transform, error);
         }
     });
-    return errors.empty() ? 0.0f : *std::max_element(errors.begin(), errors.end());
+    double steepestOfAll = 1.0;
+    for (double value : steepest) steepestOfAll = std::max(steepestOfAll, value);
+    parts.lipschitz = std::sqrt(steepestOfAll);
+    for (float error : errors) parts.storageError = std::max(parts.storageError, error);
+    parts.surface = SurfaceTree(leaves, parts.transform);
 }
 
 // The smallest depth that an inactive voxel or tile inside claims: only that much is sure of any of them.
@@ -196,7 +208,7 @@ FieldParts buildFieldParts(const LevelSetGrid& handle, Storage storage)
     setTiles(grid, parts.blocks);
     parts.interior = interiorClamp(grid);
     addTilesThatNeedBlocks(grid, parts.blocks.link(), parts.blocks);
-    parts.storageError = fillBlocks(grid, storage, parts.blocks);
+    fillBlocks(grid, storage, parts);
     return parts;
 }
 

@@ -4,6 +4,7 @@
 #include "vdbounce/base/box.h"
 #include "vdbounce/field/leaf_blocks.h"
 #include "vdbounce/field/linear_transform.h"
+#include "vdbounce/field/surface_tree.h"
 #include "vdbounce/io/level_set_grid.h"
 
 namespace vdbounce {
@@ -14,6 +15,8 @@ struct FieldParts {
     LeafBlocks blocks;
     Box indexBox; ///< of the active voxels' centres; empty when there are none
     float background = 0.0f;
+    SurfaceTree surface;
+    double lipschitz = 1.0;    ///< the largest length of the trilinear interpolant's gradient, world space; at least 1
     float storageError = 0.0f; ///< largest difference between a voxel and what is kept of it
     float interior = 0.0f;     ///< what inactive voxels inside hold is -interior or less; infinite where there are none
 };

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/field/lipschitz.h"
 
-#include "vdbounce/base/parallel.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kBlocksPerTask = 32;
 constexpr int kCells = BlockLayout::kRows - 1;
 
 // The largest squared world length of an index-space gradient with |g_i| <= change_i. Convex, so it is at a corner.
@@ -51,8 +48,9 @@ struct RowChanges {
     }
 };
 
-// The squared world length of the largest gradient in any cell of the block, if that is above `steepest`.
-double steepestCell(const float* block, const LinearTransform& transform, double steepest)
+} // namespace
+
+double steepestCell(const float (&block)[BlockLayout::kSize], const LinearTransform& transform, double steepest)
 {
     for (int x = 0; x < kCells; ++x) {
         for (int y = 0; y < kCells; ++y) {
@@ -70,23 +68,6 @@ double steepestCell(const float* block, const LinearTransform& transform, double
         }
     }
     return steepest;
-}
-
-} // namespace
-
-double lipschitzBound(const LeafBlocks& blocks, const LinearTransform& transform)
-{
-    std::vector<double> steepest(blockCount(blocks.blockCount(), kBlocksPerTask), 1.0);
-    forEachBlock(blocks.blockCount(), kBlocksPerTask, [&](std::size_t task, IndexRange range) {
-        float values[BlockLayout::kSize];
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            blocks.values().decode(i, values);
-            steepest[task] = steepestCell(values, transform, steepest[task]);
-        }
-    });
-    double largest = 1.0;
-    for (double value : steepest) largest = std::max(largest, value);
-    return std::sqrt(largest);
 }
 
 } // namespace vdbounce

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vdbounce/field/leaf_blocks.h"
+#include "vdbounce/field/block_layout.h"
 #include "vdbounce/field/linear_transform.h"
 
 namespace vdbounce {
 
-/// The largest length that the gradient of the trilinear interpolant can have anywhere, world space: from the largest
-/// difference along each axis of each cell. At least 1, so that it holds for distances too.
-double lipschitzBound(const LeafBlocks& blocks, const LinearTransform& transform);
+/// The squared length of the largest gradient that the trilinear interpolant can have in any cell of the block, world
+/// space, from the largest difference along each axis of the cell; or `steepest` where none is larger.
+double steepestCell(const float (&block)[BlockLayout::kSize], const LinearTransform& transform, double steepest);
 
 } // namespace vdbounce

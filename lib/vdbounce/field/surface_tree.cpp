@@ -6,14 +6,11 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace vdbounce {
 namespace {
-
-constexpr std::size_t kBlocksPerTask = 32;
 
 // Values are rounded, to half precision at worst where a file is stored so.
 constexpr double kRounding = 0x1p-10;
@@ -41,35 +38,36 @@ struct SurfaceTree::Search {
     double bestSquared = std::numeric_limits<double>::infinity();
 };
 
-SurfaceTree::SurfaceTree(const LeafBlocks& blocks, const LinearTransform& transform, const Box& indexBox, double error)
+SurfaceTree::Leaf SurfaceTree::leafOf(const float (&block)[BlockLayout::kSize], const Vec3i& origin,
+                                      const Box& indexBox, const LinearTransform& transform, double error)
+{
+    const auto reach = float(0.5 * transform.voxelDiagonal() * (1.0 + kRounding) + error);
+    Leaf leaf{origin, 0, 0};
+    for (int x = 0; x < BlockLayout::kLeafSide; ++x) {
+        for (int y = 0; y < BlockLayout::kLeafSide; ++y) {
+            const float* row = block + BlockLayout::kDiagonal + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY;
+            bool any = false; // most rows are done with by one vector comparison
+            for (int z = 0; z < BlockLayout::kLeafSide; ++z) any |= std::abs(row[z]) <= reach;
+            for (int z = 0; any && z < BlockLayout::kLeafSide; ++z) {
+                if (std::abs(row[z]) > reach) continue;
+                if (!indexBox.contains((origin + Vec3i(x, y, z)).cast<double>())) continue;
+                const std::uint64_t bit = std::uint64_t(1) << cubeOf(x, y, z);
+                leaf.surface |= bit;
+                if (row[z] > 0.0f) leaf.exits |= bit;
+            }
+        }
+    }
+    return leaf;
+}
+
+SurfaceTree::SurfaceTree(const std::vector<Leaf>& leaves, const LinearTransform& transform)
 {
     // A reflection leaves distances as they are, so the signs of the triangle's diagonal do not matter.
     const Eigen::HouseholderQR<Mat3d> qr(transform.indexToWorld());
     frame_ = qr.matrixQR().triangularView<Eigen::Upper>();
-    const auto reach = float(0.5 * transform.voxelDiagonal() * (1.0 + kRounding) + error);
-
-    std::vector<Leaf> found(blocks.blockCount());
-    forEachIndex(blocks.blockCount(), kBlocksPerTask, [&](std::size_t b) {
-        float values[BlockLayout::kSize];
-        blocks.values().decode(b, values);
-        Leaf leaf{blocks.origins()[b], 0, 0};
-        for (int x = 0; x < BlockLayout::kLeafSide; ++x) {
-            for (int y = 0; y < BlockLayout::kLeafSide; ++y) {
-                const float* row =
-                    values + BlockLayout::kDiagonal + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY;
-                for (int z = 0; z < BlockLayout::kLeafSide; ++z) {
-                    if (std::abs(row[z]) > reach) continue;
-                    // A voxel beside the box holds the background, which is no distance where all of the box is active.
-                    if (!indexBox.contains((leaf.origin + Vec3i(x, y, z)).cast<double>())) continue;
-                    const std::uint64_t bit = std::uint64_t(1) << cubeOf(x, y, z);
-                    leaf.surface |= bit;
-                    if (row[z] > 0.0f) leaf.exits |= bit;
-                }
-            }
-        }
-        found[b] = leaf;
-    });
-    for (const Leaf& leaf : found) {
+    for (int cube = 0; cube < 64; ++cube) cubeOffsets_[std::size_t(cube)] = frame_ * voxelOf(cube).cast<double>();
+    cubeHalf_ = 0.5 * boxOfCubes(Vec3i::Zero(), Vec3i::Ones()).size();
+    for (const Leaf& leaf : leaves) {
         if (leaf.surface != 0) leaves_.push_back(leaf);
     }
     if (leaves_.empty()) return;
@@ -135,12 +133,14 @@ void SurfaceTree::visit(std::size_t level, std::size_t node, Search& search) con
 {
     if (level == 0) {
         const Leaf& leaf = leaves_[node];
+        const Vec3d fromFirst = search.point - frame_ * (leaf.origin.cast<double>() + Vec3d::Constant(0.5));
         for (std::uint64_t bits = leaf.*search.cubes; bits != 0; bits &= bits - 1) {
-            const Vec3i voxel = leaf.origin + voxelOf(__builtin_ctzll(bits));
-            const double squared = distanceSquared(boxOfCubes(voxel, voxel + Vec3i::Ones()), search.point);
+            const int cube = __builtin_ctzll(bits);
+            const Vec3d beside = (fromFirst - cubeOffsets_[std::size_t(cube)]).cwiseAbs() - cubeHalf_;
+            const double squared = beside.cwiseMax(0.0).squaredNorm();
             if (squared >= search.bestSquared) continue;
             search.bestSquared = squared;
-            search.best.voxel = voxel;
+            search.best.voxel = leaf.origin + voxelOf(cube);
         }
         return;
     }
@@ -148,11 +148,21 @@ void SurfaceTree::visit(std::size_t level, std::size_t node, Search& search) con
     const std::vector<Box>& boxes = levels_[level - 1];
     const std::size_t first = node * kChildren;
     const std::size_t count = std::min(kChildren, boxes.size() - first);
-    std::array<std::pair<double, std::size_t>, kChildren> children;
-    for (std::size_t i = 0; i < count; ++i) children[i] = {distanceSquared(boxes[first + i], search.point), first + i};
-    std::sort(children.begin(), children.begin() + std::ptrdiff_t(count));
-    for (std::size_t i = 0; i < count && children[i].first < search.bestSquared; ++i) {
-        visit(level - 1, children[i].second, search);
+    struct Child {
+        double squared;
+        std::size_t node;
+    };
+    Child children[kChildren];
+    std::size_t wanted = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Child child{distanceSquared(boxes[first + i], search.point), first + i};
+        if (child.squared >= search.bestSquared) continue;
+        std::size_t place = wanted++;
+        for (; place > 0 && children[place - 1].squared > child.squared; --place) children[place] = children[place - 1];
+        children[place] = child;
+    }
+    for (std::size_t i = 0; i < wanted && children[i].squared < search.bestSquared; ++i) {
+        visit(level - 1, children[i].node, search);
     }
 }
 

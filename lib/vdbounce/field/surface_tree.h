@@ -5,6 +5,7 @@
 #include "vdbounce/field/leaf_blocks.h"
 #include "vdbounce/field/linear_transform.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,13 +19,25 @@ namespace vdbounce {
 /// a tree of boxes over the leaves, eight to a box, finds the nearest in the way of Roussopoulos, Kelley and Vincent
 /// (1995). Provided that the voxels hold true distances.
 ///
-/// Cost: 100 bytes a leaf that the surface crosses; about a microsecond a search.
+/// Cost: 100 bytes a leaf that the surface crosses; some microseconds a search.
 class SurfaceTree {
 public:
+    /// What is known of one leaf: a bit for each of its 4^3 cubes.
+    struct Leaf {
+        Vec3i origin;
+        std::uint64_t surface = 0; ///< the surface may run through it
+        std::uint64_t exits = 0;   ///< and it holds a voxel outside, phi > 0
+    };
+
+    /// The cubes of the leaf at `origin` whose values lie in `block`. Voxels beside `indexBox` are left out: they hold
+    /// the background, which is no distance where all of the box is active. `error` is how far values may be off.
+    static Leaf leafOf(const float (&block)[BlockLayout::kSize], const Vec3i& origin, const Box& indexBox,
+                       const LinearTransform& transform, double error);
+
     SurfaceTree() = default;
 
-    /// `error` is how far voxels may be off.
-    SurfaceTree(const LeafBlocks& blocks, const LinearTransform& transform, const Box& indexBox, double error);
+    /// Leaves without surface are left out.
+    SurfaceTree(const std::vector<Leaf>& leaves, const LinearTransform& transform);
 
     /// A cube of 2^3 voxels: its first voxel, and a lower bound on the world distance to what it holds.
     struct Cube {
@@ -41,15 +54,8 @@ public:
     std::size_t memoryBytes() const;
 
 private:
-    static constexpr int kCubesSide = BlockLayout::kLeafSide / 2;
     static constexpr std::size_t kChildren = 8;
 
-    // A bit for each of the 4^3 cubes of a leaf.
-    struct Leaf {
-        Vec3i origin;
-        std::uint64_t surface;
-        std::uint64_t exits;
-    };
     using Cubes = std::uint64_t Leaf::*;
     struct Search;
 
@@ -62,6 +68,8 @@ private:
     // Distances are measured in a frame that is a rotation of the world: its coordinates are frame_ times those of
     // index space, the upper triangle of the transform's QR decomposition.
     Mat3d frame_ = Mat3d::Identity();
+    std::array<Vec3d, 64> cubeOffsets_; // from a leaf's first cube to each of them, in the frame
+    Vec3d cubeHalf_ = Vec3d::Zero();    // half the size of a cube's box
     std::vector<Leaf> leaves_;
     std::vector<std::vector<Box>> levels_; // [0] the leaves' boxes, [n + 1] around eight of [n]; the last has one
 };
