@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <set>
+
 using namespace vdbounce::test;
 using Json = nlohmann::json;
 
@@ -86,6 +88,64 @@ TEST_CASE("sample answers in input order with distance, gradient and bounds")
     CHECK(line.rfind("0,60,0,49.", 0) == 0);
     std::getline(lines, line);
     CHECK(line.rfind("nan,0,0,nan", 0) == 0);
+}
+
+TEST_CASE("sample shows every lookup, gradient and storage")
+{
+    const TemporaryFolder folder;
+    REQUIRE(runTool("mesh2ls " + sourcePath("data/bunny.obj") + " -o " + (folder / "b.vdb") + " --dim 64").exitCode ==
+            0);
+    REQUIRE(runTool("emit surface " + (folder / "b.vdb") + " --offset 0.5vx -n 5 -o " + (folder / "at.csv")).exitCode ==
+            0);
+    const std::string command =
+        "sample --json " + (folder / "b.vdb") + " --at " + (folder / "at.csv") + " -o " + (folder / "s.csv");
+    std::set<std::string> answers;
+    for (const char* flags : {"", " --lookup nearest", " --lookup cubic", " --normal analytic", " --storage half",
+                              " --lookup cubic --normal analytic --storage fixed8"}) {
+        const ToolRun result = runTool(command + flags);
+        INFO(flags << ": " << result.err);
+        REQUIRE(result.exitCode == 0);
+        const double error = Json::parse(result.out)["storage_error_vx"];
+        CHECK((error > 0.0) == (std::string(flags).find("storage") != std::string::npos));
+        CHECK(error < 0.05);
+        answers.insert(readFile(folder / "s.csv"));
+    }
+    CHECK(answers.size() == 6); // all differ
+    CHECK(runTool(command + " --lookup cubik").exitCode == 2);
+}
+
+TEST_CASE("bench field prints each figure with its peer's and their ratio")
+{
+    const TemporaryFolder folder;
+    REQUIRE(runTool("mesh2ls " + sourcePath("data/bunny.obj") + " -o " + (folder / "b.vdb") + " --dim 64").exitCode ==
+            0);
+    const ToolRun result = runTool("bench field " + (folder / "b.vdb") + " --points 20000 --repetitions 1 --json");
+    INFO(result.err);
+    REQUIRE(result.exitCode == 0);
+    const Json json = Json::parse(result.out);
+    CHECK_FALSE(json["machine"].get<std::string>().empty());
+    REQUIRE(json["cases"].size() > 20);
+    const auto named = [&](const std::string& part) {
+        for (const Json& one : json["cases"]) {
+            if (one["name"].get<std::string>().find(part) != std::string::npos) return one;
+        }
+        FAIL("no case " << part);
+        return Json();
+    };
+    for (const Json& one : json["cases"]) {
+        CHECK(one.contains("unit"));
+        if (!one.contains("peer")) continue;
+        CHECK(one["ratio"].get<double>() ==
+              Approx(one["peer"]["value"].get<double>() / one["value"].get<double>()).epsilon(1e-6));
+    }
+    // What does not depend on the hour: the peers compute the same, errors keep to their bounds, and the bounds' tree
+    // is small and tight.
+    CHECK(named("difference of phi to the peers'")["value"] < 1e-5);
+    CHECK(named("storage half, largest error")["ratio"] >= 1.0);
+    CHECK(named("storage fixed8, largest error")["ratio"] >= 1.0);
+    CHECK(named("bounds, memory")["ratio"] >= 10.0);
+    CHECK(named("bounds, widest")["ratio"] >= 1.0);
+    CHECK(runTool("bench").exitCode == 2);
 }
 
 TEST_CASE("a surface is covered with particles")

@@ -2,7 +2,9 @@
 #include "bench/bench_field.h"
 
 #include "bench/field_peers.h"
+#include "bench/field_variants.h"
 #include "bench/point_sets.h"
+#include "bench/stopwatch.h"
 
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/field/sample_points.h"
@@ -11,8 +13,6 @@
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -24,27 +24,6 @@ namespace {
 constexpr double kNearVx = 2.0;
 constexpr std::size_t kPeerPoints = 200'000; // a repetition: a fifth of a second for the slowest
 constexpr std::size_t kPointsPerTask = 4096;
-
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
-
-double nanosecondsAPoint(std::size_t count, const std::function<void()>& work)
-{
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / double(count);
-}
-
-// The largest difference of phi, voxels.
-double largestDifference(const PointSample* a, const PointSample* b, std::size_t count, double voxelSize)
-{
-    double largest = 0.0;
-    for (std::size_t i = 0; i < count; ++i) largest = std::max(largest, std::abs(double(a[i].phi) - double(b[i].phi)));
-    return largest / voxelSize;
-}
 
 // Measures one set of points on one field.
 class PointsBench {
@@ -71,19 +50,8 @@ public:
         }
     }
 
-    double time()
-    {
-        std::vector<double> ours;
-        for (int r = 0; r < repetitions_; ++r) {
-            ours.push_back(nanosecondsAPoint(
-                points_.size(), [&] { samplePoints(field_, points_.data(), points_.size(), samples_.data()); }));
-        }
-        return median(ours);
-    }
-
     // Of all peers that compute the same, over the points that they looked up.
     double worstDisagreement() const { return worstDisagreement_; }
-    const std::vector<PointSample>& samples() const { return samples_; }
 
 private:
     double runPeer(const FieldPeer& peer, int repetition)
@@ -130,36 +98,6 @@ void onOneAndAllThreads(const std::function<void(const std::string& threads)>& b
     if (all > 1) body(std::to_string(all) + " threads");
 }
 
-// The same points with values kept in fewer bits: what it saves and what it costs.
-void benchStorage(const FieldSubject& subject, const DistanceField& exact, const std::vector<Vec3d>& points,
-                  const FieldBenchOptions& options, Cases& cases)
-{
-    const std::vector<FieldPeer> noPeers;
-    PointsBench floats(exact, noPeers, points, options.repetitions);
-    const double leaves = double(exact.blocks().blockCount());
-    const std::pair<const char*, Storage> storages[] = {{"half", Storage::Half}, {"fixed8", Storage::Fixed8}};
-    for (const auto& [word, storage] : storages) {
-        const DistanceField field(subject.grid, {Lookup::Trilinear, Normal::Central, storage});
-        const std::string name = subject.name + ", storage " + word;
-        PointsBench small(field, noPeers, points, options.repetitions);
-        double floatTime = 0.0;
-        double time = 0.0;
-        {
-            const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-            floatTime = floats.time();
-            time = small.time();
-        }
-        cases.push_back(
-            {name + ", near the surface, random order, 1 thread", "ns/point", time, Peer{"storage float", floatTime}});
-        cases.push_back({name + ", memory", "bytes/leaf", double(field.blocks().values().memoryBytes()) / leaves,
-                         Peer{"storage float", double(exact.blocks().values().memoryBytes()) / leaves}});
-        const double error =
-            largestDifference(small.samples().data(), floats.samples().data(), points.size(), exact.voxelSize());
-        cases.push_back({name + ", largest error of phi", "vx", error,
-                         Peer{"its bound", field.storageError() / exact.voxelSize()}});
-    }
-}
-
 } // namespace
 
 FieldSubject sphereSubject()
@@ -186,12 +124,13 @@ Cases benchField(const FieldSubject& subject, const FieldBenchOptions& options, 
             disagreement = std::max(disagreement, bench.worstDisagreement());
         };
         measure("near the surface, random order");
-        if (count == options.points.front()) benchStorage(subject, field, points, options, cases);
+        if (count == options.points.front()) benchVariants(subject, field, points, options, cases);
         points = inLeafOrder(field, points);
         measure("near the surface, leaf order");
         points = pointsInBox(field, count);
         measure("spread over the box, random order");
     }
+    benchBounds(subject, field, options, cases);
     cases.push_back({subject.name + ", largest difference of phi to the peers'", "vx", disagreement, std::nullopt});
     return cases;
 }

@@ -90,6 +90,7 @@ void addBench(CLI::App& app, const CommonOptions& common)
 {
     auto* verb = app.add_subcommand("bench", "Measure speed against other programs' libraries, in one run");
     verb->require_subcommand(1);
+    verb->footer("Example:\n  vdbounce bench field --json");
     auto arguments = std::make_shared<BenchArguments>();
     auto* field = verb->add_subcommand("field", "Lookups of phi and gradient against OpenVDB's and NanoVDB's");
     field->add_option("FIELD", arguments->files,

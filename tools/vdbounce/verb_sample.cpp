@@ -10,6 +10,7 @@
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/io/safe_file.h"
 
+#include <map>
 #include <memory>
 
 namespace vdbounce::tool {
@@ -21,7 +22,14 @@ struct SampleArguments {
     std::string field;
     std::string points;
     std::string output;
+    FieldOptions options;
 };
+
+const std::map<std::string, Lookup> kLookups = {
+    {"nearest", Lookup::Nearest}, {"trilinear", Lookup::Trilinear}, {"cubic", Lookup::Cubic}};
+const std::map<std::string, Normal> kNormals = {{"central", Normal::Central}, {"analytic", Normal::Analytic}};
+const std::map<std::string, Storage> kStorages = {
+    {"float", Storage::Float}, {"half", Storage::Half}, {"fixed8", Storage::Fixed8}};
 
 void appendRow(std::string& text, const DistanceField& field, const Vec3d& point)
 {
@@ -39,7 +47,7 @@ void appendRow(std::string& text, const DistanceField& field, const Vec3d& point
 void runSample(const SampleArguments& arguments, const CommonOptions& common)
 {
     requireOutput(arguments.output, {"csv"}, {arguments.field, arguments.points});
-    const DistanceField field(readLevelSet(arguments.field));
+    const DistanceField field(readLevelSet(arguments.field), arguments.options);
     const Particles points = readParticles(arguments.points);
     std::vector<std::string> blocks(blockCount(points.size(), kRowsPerBlock));
     forEachBlock(points.size(), kRowsPerBlock, [&](std::size_t block, IndexRange range) {
@@ -50,8 +58,10 @@ void runSample(const SampleArguments& arguments, const CommonOptions& common)
     file.write(std::string("x,y,z,phi,gx,gy,gz,lo,hi\n"));
     for (const std::string& block : blocks) file.write(block);
     file.commit();
-    report(common, {{"output", arguments.output}, {"points", points.size()}},
-           arguments.output + ": " + grouped(points.size()) + " points");
+    const double errorVx = field.storageError() / field.voxelSize();
+    std::string text = arguments.output + ": " + grouped(points.size()) + " points";
+    if (errorVx > 0.0) text += ", phi off by at most " + rounded(errorVx) + " voxels for the storage";
+    report(common, {{"output", arguments.output}, {"points", points.size()}, {"storage_error_vx", errorVx}}, text);
 }
 
 } // namespace
@@ -64,6 +74,12 @@ void addSample(CLI::App& app, const CommonOptions& common)
     verb->add_option("--at", arguments->points, "Points: .csv, .ply or .vdb")->required();
     verb->add_option("-o,--output", arguments->output, "Table to write, .csv: x,y,z,phi,gx,gy,gz,lo,hi in input order")
         ->required();
+    addChoice(*verb, "--lookup", arguments->options.lookup, kLookups,
+              "How phi is taken from the voxels: nearest, trilinear (default), cubic");
+    addChoice(*verb, "--normal", arguments->options.normal, kNormals,
+              "Gradient: central differences, interpolated (default), or the analytic one of the interpolation");
+    addChoice(*verb, "--storage", arguments->options.storage, kStorages,
+              "Keep values as float (default), half or fixed8");
     verb->footer("Example:\n  vdbounce sample bunny.vdb --at points.csv -o phi.csv");
     verb->callback([arguments, &common] { runWith(common, [&] { runSample(*arguments, common); }); });
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kGroupBytes = std::size_t(96) << 10;
 
 // Bytes of voxels below which random access is cheap enough: most of them stay in a third-level cache.
-constexpr std::size_t kCheapBytes = std::size_t(48) << 20;
+constexpr std::size_t kCheapBytes = std::size_t(32) << 20;
 
 // Points a block at least: fewer share too little.
 constexpr std::size_t kPointsPerBlock = 16;

@@ -14,7 +14,16 @@ public:
     /// world = indexToWorld * index + origin
     LinearTransform(const Mat3d& indexToWorld, const Vec3d& origin);
 
-    Vec3d toIndex(const Vec3d& world) const { return worldToIndex_ * (world - origin_); }
+    Vec3d toIndex(const Vec3d& world) const
+    {
+        // In the order of the vector code, so that both find the same voxel half way between two.
+        const Vec3d from = world - origin_;
+        const auto along = [&](int row) {
+            return (worldToIndex_(row, 0) * from.x() + worldToIndex_(row, 1) * from.y()) +
+                   worldToIndex_(row, 2) * from.z();
+        };
+        return Vec3d(along(0), along(1), along(2));
+    }
     Vec3d toWorld(const Vec3d& index) const { return indexToWorld_ * index + origin_; }
     Vec3d vectorToWorld(const Vec3d& index) const { return indexToWorld_ * index; }
 

@@ -22,8 +22,11 @@ PointSample sampleOne(const DistanceField& field, const Vec3d& point)
 
 bool vectorCodeAnswers(const DistanceField& field)
 {
-    return field.options().lookup == Lookup::Trilinear && field.options().normal == Normal::Central && !field.empty() &&
-           field.blocks().directory().nodes != nullptr;
+    const FieldOptions& options = field.options();
+    const bool written = options.lookup == Lookup::Trilinear ||
+                         (options.lookup == Lookup::Nearest && options.normal == Normal::Central) ||
+                         (options.lookup == Lookup::Cubic && options.normal == Normal::Analytic);
+    return written && !field.empty() && field.blocks().directory().nodes != nullptr;
 }
 
 // Answers those points of a chunk that are not in blocks, and moves the others to its front. Returns how many those
@@ -78,6 +81,8 @@ VectorField::VectorField(const DistanceField& field)
         boxMax[row] = field.indexBox().max[row];
     }
     directory = field.blocks().directory();
+    lookup = field.options().lookup;
+    normal = field.options().normal;
     storage = stored.storage();
     switch (storage) {
     case Storage::Float: values = stored.floats().data(); break;

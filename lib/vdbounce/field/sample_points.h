@@ -17,14 +17,15 @@ struct PointSample {
 ///
 /// Points may come in any order, and each sample depends on its own point only: the same bits whatever the order, the
 /// number of threads, and the processor's vector width (the best of AVX-512, AVX2 and SSE4 is chosen when the program
-/// runs). Within 8 units in the last place of the largest voxel value around the point of what sample() returns, the
-/// gradient within 8 of that value over the voxel's side. World positions are taken to voxels in double precision, so
-/// that this holds far from the origin too.
+/// runs). Within 8 units (Lookup::Cubic 16) in the last place of the largest voxel value around the point of what
+/// sample() returns, the gradient within as many of that value over the voxel's side. World positions are taken to
+/// voxels in double precision, so that this holds far from the origin too.
 ///
-/// Cost: with Lookup::Trilinear and Normal::Central (the default) 8 to 30 ns a point and thread, as the points' order,
-/// the size of the field and its storage let the voxels come out of the cache (`vdbounce bench field` measures it).
-/// Points near a surface in no order are put in order first, which takes 6 bytes a point, for at most four million at a
-/// time. Points outside of the field's box, and the other lookups, are done one at a time by sample(), at about 100 ns.
+/// Cost: 8 to 30 ns a point and thread, as the points' order, the size of the field, its storage and its lookup let the
+/// voxels come out of the cache (`vdbounce bench field` measures it). Points near a surface in no order are put in
+/// order first, which takes 6 bytes a point, for at most four million at a time. Points outside of the field's box, and
+/// Lookup::Nearest with Normal::Analytic and Lookup::Cubic with Normal::Central, are done one at a time by sample(), at
+/// 100 to 500 ns.
 void samplePoints(const DistanceField& field, const Vec3d* points, std::size_t count, PointSample* samples);
 
 } // namespace vdbounce

@@ -15,14 +15,22 @@ namespace {
 // Values are rounded, to half precision at worst where a file is stored so.
 constexpr double kRounding = 0x1p-10;
 
+// The lowest 21 bits of a number, with two zeros between each and the next.
+std::uint64_t spread(std::uint64_t bits)
+{
+    bits &= 0x1fffff;
+    bits = (bits | bits << 32) & 0x1f00000000ffff;
+    bits = (bits | bits << 16) & 0x1f0000ff0000ff;
+    bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+    bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+    return (bits | bits << 2) & 0x1249249249249249;
+}
+
 // Interleaves the bits of leaf coordinates, so that leaves that are close in order are close in space (Morton 1966).
 std::uint64_t mortonCode(const Vec3i& leaf)
 {
-    std::uint64_t code = 0;
-    for (int bit = 0; bit < 21; ++bit) {
-        for (int axis = 0; axis < 3; ++axis) code |= (std::uint64_t(leaf[axis]) >> bit & 1) << (3 * bit + axis);
-    }
-    return code;
+    return spread(std::uint64_t(leaf.x())) | spread(std::uint64_t(leaf.y())) << 1 |
+           spread(std::uint64_t(leaf.z())) << 2;
 }
 
 int cubeOf(int x, int y, int z) { return x / 2 * 16 + y / 2 * 4 + z / 2; }
@@ -79,13 +87,19 @@ void SurfaceTree::sortLeaves()
 {
     Vec3i low = leaves_.front().origin;
     for (const Leaf& leaf : leaves_) low = low.cwiseMin(leaf.origin);
-    std::vector<std::pair<std::uint64_t, Leaf>> coded;
-    for (const Leaf& leaf : leaves_) {
-        const Vec3i at = leaf.origin - low;
-        coded.emplace_back(mortonCode(at / BlockLayout::kLeafSide), leaf);
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
+    order.reserve(leaves_.size());
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        const Vec3i at = leaves_[i].origin - low;
+        order.emplace_back(mortonCode(Vec3i(at.x() >> BlockLayout::kLeafBits, at.y() >> BlockLayout::kLeafBits,
+                                            at.z() >> BlockLayout::kLeafBits)),
+                           i);
     }
-    std::sort(coded.begin(), coded.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::transform(coded.begin(), coded.end(), leaves_.begin(), [](const auto& pair) { return pair.second; });
+    std::sort(order.begin(), order.end());
+    std::vector<Leaf> sorted;
+    sorted.reserve(leaves_.size());
+    for (const auto& [code, place] : order) sorted.push_back(leaves_[place]);
+    leaves_ = std::move(sorted);
 }
 
 void SurfaceTree::buildLevels()
@@ -94,8 +108,8 @@ void SurfaceTree::buildLevels()
     for (const Leaf& leaf : leaves_) {
         Vec3i first = Vec3i::Constant(BlockLayout::kLeafSide);
         Vec3i last = Vec3i::Zero();
-        for (int cube = 0; cube < 64; ++cube) {
-            if ((leaf.surface >> cube & 1) == 0) continue;
+        for (std::uint64_t bits = leaf.surface; bits != 0; bits &= bits - 1) {
+            const int cube = __builtin_ctzll(bits);
             first = first.cwiseMin(voxelOf(cube));
             last = last.cwiseMax(voxelOf(cube) + Vec3i::Ones());
         }

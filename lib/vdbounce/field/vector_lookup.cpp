@@ -53,6 +53,8 @@ bool locateWhole(const VectorField& field, const double* points, int count, Poin
     const Floats df;
     const int lanes = int(hn::Lanes(d));
     chunk.outside = 0;
+    // The nearest voxel instead of the one below.
+    const auto rounding = hn::Set(d, field.lookup == Lookup::Nearest ? 0.5 : 0.0);
     auto anyTile = hn::Zero(di); // negative where any entry is
     for (int i = 0; i < count; i += lanes) {
         hn::Vec<Doubles> world[3];
@@ -71,7 +73,7 @@ bool locateWhole(const VectorField& field, const double* points, int count, Poin
         for (int axis = 0; axis < 3; ++axis) {
             // Points outside are looked up at the box's corner instead, so that every address is a good one.
             const auto safe = hn::IfThenElse(inside, index[axis], hn::Set(d, field.boxMin[axis]));
-            const auto floored = hn::Floor(safe);
+            const auto floored = hn::Floor(hn::Add(safe, rounding));
             voxel[axis] = hn::DemoteTo(di, floored);
             hn::StoreU(hn::DemoteTo(df, hn::Sub(safe, floored)), df, chunk.at[axis] + i);
         }
@@ -91,6 +93,8 @@ bool locateWhole(const VectorField& field, const double* points, int count, Poin
     return chunk.outside == 0 && hn::AllFalse(di, hn::Lt(anyTile, hn::Zero(di)));
 }
 
+alignas(16) constexpr float kPhiOnly[4] = {1.0f, 0.0f, 0.0f, 0.0f};
+
 bool locate(const VectorField& field, const Vec3d* points, int count, PointChunk& chunk)
 {
     static_assert(sizeof(Vec3d) == 3 * sizeof(double));
@@ -102,39 +106,53 @@ bool locate(const VectorField& field, const Vec3d* points, int count, PointChunk
     return locateWhole(field, padded, count, chunk);
 }
 
-template <Storage storage>
+template <class Method, Storage storage>
 void interpolateStored(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
 {
     using Type = typename Stored<storage>::Type;
     const Type* values = static_cast<const Type*>(field.values);
     for (int i = 0; i < count; i += kPointsPerVector) {
-        const Type* from[kPointsPerVector];
+        Neighbourhoods<storage> near;
         float offset[4] = {};
         float step[4] = {};
         for (int k = 0; k < kPointsPerVector; ++k) {
             const int p = i + k < count ? i + k : i;
             const std::size_t block = std::size_t(chunk.entry[p]);
-            from[k] = values + block * BlockLayout::kSize + chunk.offset[p];
+            near.from[k] = values + block * BlockLayout::kSize + chunk.offset[p];
             if constexpr (storage == Storage::Fixed8) {
                 offset[k] = field.ranges[block].offset;
                 step[k] = field.ranges[block].step;
             }
         }
-        V sample = interpolate<storage>(from, chunk.at[0] + i, chunk.at[1] + i, chunk.at[2] + i);
+        V sample = Method::interpolate(near, chunk.at[0] + i, chunk.at[1] + i, chunk.at[2] + i);
         if constexpr (storage == Storage::Fixed8) {
-            alignas(16) static constexpr float kPhiOnly[4] = {1.0f, 0.0f, 0.0f, 0.0f};
             sample = hn::Add(hn::Mul(sample, ofEachPoint(step)), hn::Mul(ofEachPoint(offset), everyPoint(kPhiOnly)));
         }
         hn::StoreU(toWorld(field, sample), Lanes(), &samples[i].phi);
     }
 }
 
-void interpolateChunk(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
+template <class Method>
+void interpolateBy(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
 {
     switch (field.storage) {
-    case Storage::Float: interpolateStored<Storage::Float>(field, chunk, count, samples); break;
-    case Storage::Half: interpolateStored<Storage::Half>(field, chunk, count, samples); break;
-    case Storage::Fixed8: interpolateStored<Storage::Fixed8>(field, chunk, count, samples); break;
+    case Storage::Float: interpolateStored<Method, Storage::Float>(field, chunk, count, samples); break;
+    case Storage::Half: interpolateStored<Method, Storage::Half>(field, chunk, count, samples); break;
+    case Storage::Fixed8: interpolateStored<Method, Storage::Fixed8>(field, chunk, count, samples); break;
+    }
+}
+
+void interpolateChunk(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples)
+{
+    switch (field.lookup) {
+    case Lookup::Nearest: interpolateBy<NearestCentral>(field, chunk, count, samples); break;
+    case Lookup::Cubic: interpolateBy<CubicAnalytic>(field, chunk, count, samples); break;
+    case Lookup::Trilinear:
+        if (field.normal == Normal::Central) {
+            interpolateBy<TrilinearCentral>(field, chunk, count, samples);
+        } else {
+            interpolateBy<TrilinearAnalytic>(field, chunk, count, samples);
+        }
     }
 }
 

@@ -22,6 +22,8 @@ struct VectorField {
     double boxMin[3];
     double boxMax[3];
     LeafBlocks::Directory directory;
+    Lookup lookup;
+    Normal normal;
     Storage storage;
     const void* values;
     const BlockValues::Range* ranges; // of Storage::Fixed8
@@ -49,7 +51,8 @@ struct PointChunk {
 /// VectorField::directory.nodes.
 bool locatePoints(const VectorField& field, const Vec3d* points, int count, PointChunk& chunk);
 
-/// Trilinear phi and central-difference gradient of the chunk's first `count` points, all of which must be in blocks.
+/// phi and gradient of the chunk's first `count` points, all of which must be in blocks, as VectorField::lookup and
+/// normal ask for them; Normal::Central of Lookup::Cubic and Normal::Analytic of Lookup::Nearest are not among them.
 /// `samples` needs room for the next multiple of 4.
 void interpolatePoints(const VectorField& field, const PointChunk& chunk, int count, PointSample* samples);
 
