@@ -109,8 +109,8 @@ TEST_CASE("lookup is trilinear with interpolated central differences under any a
         INFO(name);
         const openvdb::Vec3d middle = transform->indexToWorld(openvdb::Vec3d(-3, 2, 1));
         const Phi phi = sphere(1.2, Vec3d(middle[0], middle[1], middle[2]));
-        requireDefinition(bandGrid(phi, transform, 24), random, 100000);
-        requireDefinition(denseGrid(phi, transform, 12), random, 50000);
+        requireDefinition(bandGrid(phi, transform, 24), random, 1000000);
+        requireDefinition(denseGrid(phi, transform, 12), random, 1000000);
     }
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("lookup is right across leaf, node and tile borders and in tiles")
         const Vec3d p = random.in(Box{Vec3d(-130, -130, -8), Vec3d(0, 10, 130)});
         grid->tree().setValueOn(Coord(int(p.x()), int(p.y()), int(p.z())), float(random.uniform(-3, 3)));
     }
-    requireDefinition(grid, random, 200000);
+    requireDefinition(grid, random, 1000000);
     // Close to borders of leaves and nodes, where stencils reach across.
     const DistanceField field(levelSet(grid));
     const auto accessor = grid->getConstAccessor();

@@ -3,6 +3,7 @@
 
 #include "vdbounce/field/vector_lookup.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <tbb/global_control.h>
@@ -15,13 +16,14 @@ std::string processorName()
     std::ifstream file("/proc/cpuinfo");
     std::string name = "unknown processor";
     std::string family;
-    for (std::string line; std::getline(file, line);) {
-        const auto value = [&] { return line.substr(line.find(':') + 2); };
-        if (line.rfind("model name", 0) == 0) name = value();
-        if (line.rfind("cpu family", 0) == 0) family = value();
-        if (line.rfind("model\t", 0) == 0) return name + " (family " + family + ", model " + value() + ")";
+    std::string model;
+    for (std::string line; std::getline(file, line) && !line.empty();) { // the first processor
+        const std::string value = line.substr(std::min(line.size(), line.find(':') + 2));
+        if (line.rfind("model name", 0) == 0) name = value;
+        if (line.rfind("cpu family", 0) == 0) family = value;
+        if (line.rfind("model\t", 0) == 0) model = value;
     }
-    return name;
+    return family.empty() ? name : name + " (family " + family + ", model " + model + ")";
 }
 
 } // namespace
