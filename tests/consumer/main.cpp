@@ -3,8 +3,9 @@
 #include <iostream>
 #include <vdbounce/build/mesh_to_level_set.h>
 #include <vdbounce/contact/particle_pass.h>
-#include <vdbounce/field/distance_field.h>
+#include <vdbounce/field/sample_points.h>
 #include <vdbounce/io/mesh_file.h>
+#include <vector>
 
 int main(int argc, char** argv)
 {
@@ -24,6 +25,11 @@ int main(int argc, char** argv)
 
     for (const vdbounce::Vec3d& p : particles.position) {
         if (!(field->phi(p) >= 0.05)) return 1;
+    }
+    std::vector<vdbounce::PointSample> samples(particles.size());
+    vdbounce::samplePoints(*field, particles.position.data(), samples.size(), samples.data());
+    for (const vdbounce::PointSample& sample : samples) {
+        if (!(sample.phi >= 0.0499f)) return 1;
     }
     std::cout << report.tally.contacts << " contacts\n";
     return report.tally.contacts > 0 ? 0 : 1;
