@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/grids.h"
 #include "support/run_tool.h"
 #include "support/temporary_folder.h"
+
+#include "vdbounce/io/grid_file.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <set>
 
+using namespace vdbounce;
 using namespace vdbounce::test;
 using Json = nlohmann::json;
 
@@ -146,6 +150,13 @@ TEST_CASE("bench field prints each figure with its peer's and their ratio")
     CHECK(named("bounds, memory")["ratio"] >= 10.0);
     CHECK(named("bounds, widest")["ratio"] >= 1.0);
     CHECK(runTool("bench").exitCode == 2);
+
+    // Nothing near zero to put points at.
+    const auto nowhere = denseGrid([](const Vec3d&) { return 2.5; }, uniformTransform(1.0), 6);
+    writeLevelSet(levelSet(nowhere), folder / "nowhere.vdb");
+    const ToolRun refused = runTool("bench field " + (folder / "nowhere.vdb") + " --points 1000");
+    CHECK(refused.exitCode == 3);
+    CHECK(lineCount(refused.err) == 1);
 }
 
 TEST_CASE("a surface is covered with particles")

@@ -224,3 +224,53 @@ TEST_CASE("from anywhere inside the way to the nearest voxel outside leads out")
     empty->setGridClass(openvdb::GRID_LEVEL_SET);
     CHECK_FALSE(DistanceField(levelSet(empty)).nearestOutside(Vec3d::Zero()).has_value());
 }
+
+TEST_CASE("the way out of a box is found through each of its faces, wherever they lie between voxels")
+{
+    VDBOUNCE_RANDOM(random);
+    for (double beyond : {0.05, 0.1, 0.5, 0.95}) {
+        const Vec3d corner(20 + beyond, 18 + beyond, 16 + beyond);
+        const Phi box = [&](const Vec3d& p) {
+            const Vec3d q = p.cwiseAbs() - corner;
+            return q.cwiseMax(0.0).norm() + std::min(0.0, q.maxCoeff());
+        };
+        const DistanceField field(levelSet(bandGrid(box, uniformTransform(1.0), 26)));
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3d p = random.in(Box{-corner, corner});
+            const auto outside = field.nearestOutside(p);
+            REQUIRE(outside.has_value());
+            REQUIRE(field.phi(*outside) > 0.0);
+            REQUIRE((*outside - p).norm() <= -box(p) + 2.5 * std::sqrt(3.0));
+        }
+    }
+}
+
+TEST_CASE("bounds hold far from the origin of index space")
+{
+    VDBOUNCE_RANDOM(random);
+    const openvdb::Coord far(1200000000, -1100000000, 7);
+    const auto near = bandGrid(sphere(20.0), uniformTransform(1.0), 26);
+    auto grid = openvdb::FloatGrid::create(near->background());
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    auto accessor = grid->getAccessor();
+    for (auto it = near->cbeginValueOn(); it; ++it) accessor.setValueOn(it.getCoord() + far, *it);
+    openvdb::tools::signedFloodFill(grid->tree());
+    const DistanceField field(levelSet(grid));
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3d p = random.uniform(0, 40) * random.direction();
+        const Interval bounds = field.bounds(p + Vec3d(far.x(), far.y(), far.z()));
+        REQUIRE(bounds.lower <= p.norm() - 20.0 + 1e-5);
+        REQUIRE(bounds.upper >= p.norm() - 20.0 - 1e-5);
+    }
+}
+
+TEST_CASE("where the box cuts off all of the surface, depth has no bound")
+{
+    auto grid = openvdb::FloatGrid::create(3.0f);
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
+    grid->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(9)), -3.0f, true);
+    grid->tree().setValueOff(openvdb::Coord(20, 0, 0), -3.0f);
+    const DistanceField field(levelSet(grid));
+    CHECK(field.clipped());
+    CHECK(field.bounds(Vec3d::Constant(4.5)).lower <= -100.0);
+}

@@ -158,3 +158,18 @@ TEST_CASE("values in fewer bits are off by no more than is said")
         }
     }
 }
+
+TEST_CASE("phi is one and the same alone and with its gradient, outside of the box too")
+{
+    VDBOUNCE_RANDOM(random);
+    const auto grid = bandGrid(sphere(1.0, Vec3d(0.01, 0.02, 0.03)), skewed(), 24);
+    for (Lookup lookup : {Lookup::Nearest, Lookup::Trilinear, Lookup::Cubic}) {
+        for (Normal normal : {Normal::Central, Normal::Analytic}) {
+            const DistanceField field = fieldOf(grid, lookup, normal);
+            for (int i = 0; i < 10000; ++i) {
+                const Vec3d p = field.worldBox().centre() + 2.0 * random.uniform(0, 1) * random.direction();
+                REQUIRE(field.sample(p).phi == Approx(field.phi(p)).margin(1e-12));
+            }
+        }
+    }
+}

@@ -156,6 +156,14 @@ TEST_CASE("lookups of many points need no directory in one array, no voxels, and
     CHECK(lookUp(DistanceField(levelSet(empty)), {Vec3d(1, 2, 3)})[0].phi == 3.0f);
     CHECK(lookUp(DistanceField(levelSet(empty)), {}).empty());
 
+    // One tile that fills a node.
+    auto tile = openvdb::FloatGrid::create(3.0f);
+    tile->setGridClass(openvdb::GRID_LEVEL_SET);
+    tile->fill(openvdb::CoordBBox(openvdb::Coord(0), openvdb::Coord(127)), 3.0f, true);
+    const std::vector<PointSample> inTile =
+        lookUp(DistanceField(levelSet(tile)), std::vector<Vec3d>(64, Vec3d(9, 9, 9)));
+    CHECK(inTile.back().phi == 3.0f);
+
     const DistanceField field(levelSet(bandGrid(sphere(1.0), uniformTransform(0.1), 16)));
     CHECK(std::isnan(lookUp(field, {Vec3d(std::nan(""), 0, 0)})[0].phi));
     CHECK(std::isnan(lookUp(field, {Vec3d(0, std::numeric_limits<double>::infinity(), 0)})[0].phi));

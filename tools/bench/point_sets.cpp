@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/point_sets.h"
 
+#include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/build/random_numbers.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kPointsPerTask = 8192;
+constexpr int kMostTries = 10000; // a point near a surface needs two or three
 
 // The voxels whose cells a point within `distance` of the surface can lie in.
 std::vector<Vec3i> voxelsNearSurface(const DistanceField& field, double distance)
@@ -32,10 +34,16 @@ std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t cou
 {
     const double distance = distanceVx * field.voxelSize();
     const std::vector<Vec3i> voxels = voxelsNearSurface(field, distance);
+    const auto refuse = [] {
+        throw InputError("bench field", "the level set has no surface to put points near", "measure another one");
+    };
+    if (voxels.empty()) refuse();
     std::vector<Vec3d> points(count);
     forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
         CounterRandom random(kSeed, i);
+        int tries = 0;
         do {
+            if (++tries > kMostTries) refuse();
             const Vec3i& voxel = voxels[std::size_t(random.uniform() * double(voxels.size()))];
             points[i] = field.transform().toWorld(voxel.cast<double>() + random.uniformVector());
         } while (std::abs(field.phi(points[i])) > distance);

@@ -22,6 +22,7 @@ struct SampleArguments {
     std::string field;
     std::string points;
     std::string output;
+    std::string grid;
     FieldOptions options;
 };
 
@@ -47,7 +48,7 @@ void appendRow(std::string& text, const DistanceField& field, const Vec3d& point
 void runSample(const SampleArguments& arguments, const CommonOptions& common)
 {
     requireOutput(arguments.output, {"csv"}, {arguments.field, arguments.points});
-    const DistanceField field(readLevelSet(arguments.field), arguments.options);
+    const DistanceField field(readLevelSet(arguments.field, arguments.grid), arguments.options);
     const Particles points = readParticles(arguments.points);
     std::vector<std::string> blocks(blockCount(points.size(), kRowsPerBlock));
     forEachBlock(points.size(), kRowsPerBlock, [&](std::size_t block, IndexRange range) {
@@ -74,6 +75,7 @@ void addSample(CLI::App& app, const CommonOptions& common)
     verb->add_option("--at", arguments->points, "Points: .csv, .ply or .vdb")->required();
     verb->add_option("-o,--output", arguments->output, "Table to write, .csv: x,y,z,phi,gx,gy,gz,lo,hi in input order")
         ->required();
+    verb->add_option("--grid", arguments->grid, "Name of the grid, where the file holds several (default the first)");
     addChoice(*verb, "--lookup", arguments->options.lookup, kLookups,
               "How phi is taken from the voxels: nearest, trilinear (default), cubic");
     addChoice(*verb, "--normal", arguments->options.normal, kNormals,

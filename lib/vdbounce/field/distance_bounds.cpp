@@ -66,7 +66,7 @@ Interval DistanceField::boundsInBox(const Vec3d& index) const
     const double sign = bounds.lower > -kInfinity ? 1.0 : -1.0;
     double closest = std::max(0.0, sign > 0.0 ? bounds.lower : -bounds.upper);
     // A surface that lies in the box is no farther away than the box is long.
-    double farthest = transform_.vectorToWorld(indexBox_.size()).norm();
+    double farthest = clipped_ ? kInfinity : transform_.vectorToWorld(indexBox_.size()).norm();
     if (const auto cube = surface_.nearestSurface(index)) {
         closest = std::max(closest, clipped_ ? std::min(cube->distance, distanceToBoxSide(index)) : cube->distance);
         farthest = farthestSurface(*cube, index, sign);

@@ -156,12 +156,25 @@ Vec3d DistanceField::alongBox(const Vec3d& closest, const Vec3d& offset, const V
     return vector - normal.dot(vector) * normal;
 }
 
+// phi as it is looked up in the box, with a gradient for sliding along its side.
+FieldSample DistanceField::sampleOnBox(const Vec3d& index) const
+{
+    if (options_.lookup == Lookup::Cubic) {
+        return inCell(Cell(index), [](const Neighbourhood& near, const Vec3d& at) {
+            return tricubic(near.values, near.strideX, near.strideY, at);
+        });
+    }
+    FieldSample sample = cellSampleInBox(index);
+    if (options_.lookup == Lookup::Nearest) sample.phi = phiInBox(index);
+    return sample;
+}
+
 FieldSample DistanceField::sampleOutside(const Vec3d& index) const
 {
     const Vec3d closest = closestPointInBox(indexBox_, index, transform_);
     const Vec3d offset = transform_.vectorToWorld(index - closest);
     const double a = offset.norm();
-    const FieldSample atBox = cellSampleInBox(closest);
+    const FieldSample atBox = sampleOnBox(closest);
     const double b = atBox.phi;
     const double magnitude = std::hypot(a, b);
     // d/dx of sqrt(A^2 + B^2) is (A dA/dx + B dB/dx) / sqrt: A grows along the offset, and B changes only as the

@@ -35,7 +35,7 @@ namespace vdbounce {
 ///     FieldSample s = field.sample(Vec3d(0, 1, 0)); // s.phi, s.gradient
 ///
 /// Cost: a copy of the voxels with a halo (see Storage for its size); a lookup reads one block. For many points at once
-/// see samplePoints(), which is ten times as fast.
+/// see samplePoints(), which is several times as fast.
 class DistanceField {
 public:
     /// Throws InputError, naming the grid and the voxel, for values that are not finite.
@@ -46,11 +46,12 @@ public:
     double phi(const Vec3d& world) const;
     FieldSample sample(const Vec3d& world) const;
 
-    /// lower <= true distance <= upper, provided that the grid's voxels hold true distances and that the surface lies
-    /// in the grid's box. In the band within a voxel's diagonal of the truth, elsewhere in the box within two and a
-    /// half; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the closest point for B. Where the box cuts the
-    /// surface off (clipped()), the bounds allow for any surface beyond. Cost: in the band 8 voxels, elsewhere some
-    /// microseconds.
+    /// lower <= true distance <= upper, provided that the grid's voxels hold true distances (active ones that are
+    /// clamped to a band do not) and that the surface lies in the grid's box. In the band within a voxel's diagonal of
+    /// the truth, elsewhere in the box within two and a half; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the
+    /// closest point for B. Where the box cuts the surface off (clipped()), the bounds allow for any surface beyond.
+    /// Cost: in the band 8 voxels, elsewhere some microseconds. In a band thinner than half a voxel's diagonal, where
+    /// no voxel may tell how near the surface is, the far bound may be infinite.
     Interval bounds(const Vec3d& world) const;
 
     /// A place outside, phi > 0 there, on the far side of the surface near `world`: a voxel's centre. From anywhere
@@ -71,8 +72,10 @@ public:
     double voxelSize() const { return transform_.smallestVoxelSize(); }
     double background() const { return background_; }
 
-    /// The most that a phi in the box can be off for the storage that was asked for, measured over all voxels; 0 for
-    /// Storage::Float. A gradient's component along a grid axis is off by at most this over the voxel's side there.
+    /// The most that a voxel is off for the storage that was asked for, measured over all of them; 0 for
+    /// Storage::Float. phi in the box is off by no more, with Lookup::Cubic by up to 2 times as much. A gradient's
+    /// component along a grid axis is off by no more than this over the voxel's side there, with Normal::Analytic by up
+    /// to 2 times and with Lookup::Cubic 5 times as much.
     double storageError() const { return storageError_; }
     bool empty() const { return indexBox_.empty(); }
 
@@ -102,6 +105,7 @@ private:
     double phiInBox(const Vec3d& index) const;
     FieldSample sampleInBox(const Vec3d& index) const;
     FieldSample cellSampleInBox(const Vec3d& index) const;
+    FieldSample sampleOnBox(const Vec3d& index) const;
     FieldSample sampleOutside(const Vec3d& index) const;
     Vec3d alongBox(const Vec3d& closest, const Vec3d& offset, const Vec3d& vector) const;
     Interval boundsInBox(const Vec3d& index) const;

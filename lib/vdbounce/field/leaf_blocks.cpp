@@ -252,7 +252,9 @@ void LeafBlocks::indexNodesDensely()
 
 LeafBlocks::Directory LeafBlocks::directory() const
 {
-    return {denseNodes_.empty() ? nullptr : denseNodes_.data(), denseMin_, denseSize_,
+    // Vector code counts entries in 32 bits.
+    const bool countable = nodes_.size() < (std::size_t(1) << 31) / kNodeEntries;
+    return {denseNodes_.empty() || !countable ? nullptr : denseNodes_.data(), denseMin_, denseSize_,
             nodes_.empty() ? nullptr : nodes_.front().code, tileValues_.data()};
 }
 

@@ -60,7 +60,7 @@ public:
     /// The directory as arrays, for lookups of many points at once. An entry is a block's number or ~tile.
     struct Directory {
         const std::int32_t* nodes; ///< a node's number or, for one filled by a tile, that entry; null for grids of
-                                   ///< scattered pieces, whose nodes are not in an array
+                                   ///< scattered pieces, whose nodes are not in an array, and of half a million nodes
         Vec3i nodeMin;
         Vec3i nodeSize;
         const std::int32_t* entries; ///< of 16^3 leaves for each node, x slowest

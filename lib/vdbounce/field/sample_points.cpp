@@ -26,7 +26,8 @@ bool vectorCodeAnswers(const DistanceField& field)
     const bool written = options.lookup == Lookup::Trilinear ||
                          (options.lookup == Lookup::Nearest && options.normal == Normal::Central) ||
                          (options.lookup == Lookup::Cubic && options.normal == Normal::Analytic);
-    return written && !field.empty() && field.blocks().directory().nodes != nullptr;
+    const LeafBlocks::Directory directory = field.blocks().directory();
+    return written && !field.empty() && directory.nodes != nullptr && directory.entries != nullptr;
 }
 
 // Answers those points of a chunk that are not in blocks, and moves the others to its front. Returns how many those

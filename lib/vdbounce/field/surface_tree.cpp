@@ -50,18 +50,21 @@ SurfaceTree::Leaf SurfaceTree::leafOf(const float (&block)[BlockLayout::kSize], 
                                       const Box& indexBox, const LinearTransform& transform, double error)
 {
     const auto reach = float(0.5 * transform.voxelDiagonal() * (1.0 + kRounding) + error);
+    // A voxel outside beside one inside is no farther from the surface than the two are from each other.
+    const auto exitReach = float(transform.voxelSize().maxCoeff() * (1.0 + kRounding) + error);
+    const float farthest = std::max(reach, exitReach);
     Leaf leaf{origin, 0, 0};
     for (int x = 0; x < BlockLayout::kLeafSide; ++x) {
         for (int y = 0; y < BlockLayout::kLeafSide; ++y) {
             const float* row = block + BlockLayout::kDiagonal + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY;
             bool any = false; // most rows are done with by one vector comparison
-            for (int z = 0; z < BlockLayout::kLeafSide; ++z) any |= std::abs(row[z]) <= reach;
+            for (int z = 0; z < BlockLayout::kLeafSide; ++z) any |= std::abs(row[z]) <= farthest;
             for (int z = 0; any && z < BlockLayout::kLeafSide; ++z) {
-                if (std::abs(row[z]) > reach) continue;
+                if (std::abs(row[z]) > farthest) continue;
                 if (!indexBox.contains((origin + Vec3i(x, y, z)).cast<double>())) continue;
                 const std::uint64_t bit = std::uint64_t(1) << cubeOf(x, y, z);
-                leaf.surface |= bit;
-                if (row[z] > 0.0f) leaf.exits |= bit;
+                if (std::abs(row[z]) <= reach) leaf.surface |= bit;
+                if (row[z] > 0.0f && row[z] <= exitReach) leaf.exits |= bit;
             }
         }
     }
@@ -76,7 +79,7 @@ SurfaceTree::SurfaceTree(const std::vector<Leaf>& leaves, const LinearTransform&
     for (int cube = 0; cube < 64; ++cube) cubeOffsets_[std::size_t(cube)] = frame_ * voxelOf(cube).cast<double>();
     cubeHalf_ = 0.5 * boxOfCubes(Vec3i::Zero(), Vec3i::Ones()).size();
     for (const Leaf& leaf : leaves) {
-        if (leaf.surface != 0) leaves_.push_back(leaf);
+        if ((leaf.surface | leaf.exits) != 0) leaves_.push_back(leaf);
     }
     if (leaves_.empty()) return;
     sortLeaves();
@@ -85,15 +88,16 @@ SurfaceTree::SurfaceTree(const std::vector<Leaf>& leaves, const LinearTransform&
 
 void SurfaceTree::sortLeaves()
 {
-    Vec3i low = leaves_.front().origin;
-    for (const Leaf& leaf : leaves_) low = low.cwiseMin(leaf.origin);
+    const auto leafAt = [](const Leaf& leaf) {
+        return Vec3i(leaf.origin.x() >> BlockLayout::kLeafBits, leaf.origin.y() >> BlockLayout::kLeafBits,
+                     leaf.origin.z() >> BlockLayout::kLeafBits);
+    };
+    Vec3i low = leafAt(leaves_.front());
+    for (const Leaf& leaf : leaves_) low = low.cwiseMin(leafAt(leaf));
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     order.reserve(leaves_.size());
     for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        const Vec3i at = leaves_[i].origin - low;
-        order.emplace_back(mortonCode(Vec3i(at.x() >> BlockLayout::kLeafBits, at.y() >> BlockLayout::kLeafBits,
-                                            at.z() >> BlockLayout::kLeafBits)),
-                           i);
+        order.emplace_back(mortonCode(leafAt(leaves_[i]) - low), i);
     }
     std::sort(order.begin(), order.end());
     std::vector<Leaf> sorted;
@@ -108,7 +112,7 @@ void SurfaceTree::buildLevels()
     for (const Leaf& leaf : leaves_) {
         Vec3i first = Vec3i::Constant(BlockLayout::kLeafSide);
         Vec3i last = Vec3i::Zero();
-        for (std::uint64_t bits = leaf.surface; bits != 0; bits &= bits - 1) {
+        for (std::uint64_t bits = leaf.surface | leaf.exits; bits != 0; bits &= bits - 1) {
             const int cube = __builtin_ctzll(bits);
             first = first.cwiseMin(voxelOf(cube));
             last = last.cwiseMax(voxelOf(cube) + Vec3i::Ones());
@@ -126,7 +130,7 @@ void SurfaceTree::buildLevels()
 // The frame's box around all that is nearest to the voxels from the first to the last.
 Box SurfaceTree::boxOfCubes(const Vec3i& firstVoxel, const Vec3i& lastVoxel) const
 {
-    const Vec3d centre = frame_ * (0.5 * (firstVoxel + lastVoxel).cast<double>());
+    const Vec3d centre = frame_ * (0.5 * (firstVoxel.cast<double>() + lastVoxel.cast<double>()));
     const Vec3d half = frame_.cwiseAbs() * (0.5 * (lastVoxel - firstVoxel + Vec3i::Ones()).cast<double>());
     return Box{centre - half, centre + half};
 }

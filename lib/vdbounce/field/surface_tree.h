@@ -26,7 +26,8 @@ public:
     struct Leaf {
         Vec3i origin;
         std::uint64_t surface = 0; ///< the surface may run through it
-        std::uint64_t exits = 0;   ///< and it holds a voxel outside, phi > 0
+        std::uint64_t exits = 0;   ///< it holds a voxel outside, phi > 0, that is as near to the surface as neighbours
+                                   ///< are to each other
     };
 
     /// The cubes of the leaf at `origin` whose values lie in `block`. Voxels beside `indexBox` are left out: they hold
@@ -36,7 +37,7 @@ public:
 
     SurfaceTree() = default;
 
-    /// Leaves without surface are left out.
+    /// Leaves without either are left out.
     SurfaceTree(const std::vector<Leaf>& leaves, const LinearTransform& transform);
 
     /// A cube of 2^3 voxels: its first voxel, and a lower bound on the world distance to what it holds.
@@ -48,7 +49,7 @@ public:
     /// The nearest cube that the surface may run through; nothing where there is no surface.
     std::optional<Cube> nearestSurface(const Vec3d& index) const { return nearest(index, &Leaf::surface); }
 
-    /// The nearest of those that hold a voxel outside, phi > 0.
+    /// The nearest that holds a voxel outside, phi > 0, beside the surface.
     std::optional<Cube> nearestExit(const Vec3d& index) const { return nearest(index, &Leaf::exits); }
 
     std::size_t memoryBytes() const;
