@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 #include <sys/mman.h>
 
@@ -29,6 +30,13 @@ template <class T> struct HugePageAllocator {
         return static_cast<T*>(memory);
     }
     void deallocate(T* memory, std::size_t) { std::free(memory); }
+
+    /// Elements without a value are left as they are: arrays are filled by many threads, zeros first would be by one.
+    template <class Element> void construct(Element* place) { ::new (static_cast<void*>(place)) Element; }
+    template <class Element, class... Arguments> void construct(Element* place, Arguments&&... arguments)
+    {
+        ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
+    }
 
     friend bool operator==(const HugePageAllocator&, const HugePageAllocator&) { return true; }
     friend bool operator!=(const HugePageAllocator&, const HugePageAllocator&) { return false; }
