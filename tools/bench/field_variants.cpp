@@ -5,6 +5,7 @@
 #include "bench/stopwatch.h"
 
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/field/vector_lookup.h"
 #include "vdbounce/io/grid_file.h"
 
 #include <cmath>
@@ -66,6 +67,20 @@ double secondsToMakeTree(const DistanceField& field, int repetitions)
     return with - medianSeconds(times, [&] { pass(false); });
 }
 
+// The same lookups on lesser processors, as far as this one can stand in for them. The results are the same.
+void benchTargets(const FieldSubject& subject, const DistanceField& field, const std::vector<Vec3d>& points,
+                  const FieldBenchOptions& options, Cases& cases)
+{
+    std::vector<PointSample> samples(points.size());
+    for (const std::string& target : vectorTargets()) {
+        chooseVectorTarget(target);
+        const double time = timeOf(field, points, options.repetitions, samples);
+        chooseVectorTarget("");
+        cases.push_back({subject.name + ", vector code " + target + ", near the surface, random order, 1 thread",
+                         "ns/point", time, std::nullopt});
+    }
+}
+
 } // namespace
 
 double largestDifference(const PointSample* a, const PointSample* b, std::size_t count, double voxelSize)
@@ -102,6 +117,7 @@ void benchVariants(const FieldSubject& subject, const DistanceField& field, cons
         cases.push_back({name + ", largest error of phi", "vx", error,
                          Peer{"what it is bounded by", other.storageError() / field.voxelSize()}});
     }
+    benchTargets(subject, field, points, options, cases);
 }
 
 void benchBounds(const FieldSubject& subject, const DistanceField& field, const FieldBenchOptions& options,

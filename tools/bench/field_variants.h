@@ -11,7 +11,7 @@ namespace vdbounce::bench {
 double largestDifference(const PointSample* a, const PointSample* b, std::size_t count, double voxelSize);
 
 /// The same points with values kept in fewer bits and with the other lookups, on one thread: what each saves and costs
-/// against floats, trilinear and central differences.
+/// against floats, trilinear and central differences. Then the default with the vector code of each kind of processor.
 void benchVariants(const FieldSubject& subject, const DistanceField& field, const std::vector<Vec3d>& points,
                    const FieldBenchOptions& options, Cases& cases);
 

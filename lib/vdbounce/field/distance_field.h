@@ -20,12 +20,10 @@ namespace vdbounce {
 ///
 /// phi is in world units, negative inside. All points are in world space.
 ///
-/// | where | phi | gradient |
-/// |---|---|---|
-/// | in the grid's box | trilinear of the 8 voxels around the point, or what FieldOptions asks for | central
-/// differences at those 8, interpolated the same way, carried to world space by the inverse transpose | | outside |
-/// sign(B) sqrt(A^2 + B^2), with A the distance to the closest point of the box and B = phi there | the derivative of
-/// that |
+/// In the grid's box phi is trilinear of the 8 voxels around the point, and the gradient interpolates their central
+/// differences the same way, carried to world space by the inverse transpose; or both are what FieldOptions asks for.
+/// Outside phi is sign(B) sqrt(A^2 + B^2), with A the distance to the closest point of the box and B = phi there, and
+/// the gradient is the derivative of that.
 ///
 /// The box is that of the active voxels' centres. Between the narrow band and the box phi is the background with the
 /// sign of the side, a lower bound on the distance, and the gradient is zero. Method: lecture, slides 26, 28 and 29.

@@ -10,7 +10,7 @@ enum class Lookup {
     Nearest,   ///< of the nearest voxel: 1 value, off by half a voxel's diagonal, jumps from voxel to voxel
     Trilinear, ///< of the 8 voxels around the point: continuous
     Cubic, ///< Catmull-Rom splines through the 4^3 voxels around the point: C1, meets every voxel's value, overshoots
-           ///< where values kink (lookups cost about three times as much)
+           ///< where values kink (for one point at a time several times the cost)
 };
 
 /// Where the gradient comes from.

@@ -18,9 +18,8 @@ namespace vdbounce {
 /// and the field is constant around it. A directory of two levels finds the block or tile of a voxel: nodes of 16^3
 /// leaves, and an index over the nodes.
 ///
-/// Memory: a block for each leaf, 5,324 bytes as floats (2.6 times its voxels), for about as many tiles beside
-/// leaves again as the band has leaves that it fills to the side, and 16 KiB for each node of 128^3 voxels that has
-/// leaves in or next to it.
+/// Memory: a block, 5,324 bytes as floats (2.6 times a leaf's voxels), for each leaf and each such cell of a tile, and
+/// 16 KiB for each node of 128^3 voxels that has leaves in or next to it.
 class LeafBlocks {
 public:
     /// `background` fills what is not set.
