@@ -139,3 +139,16 @@ TEST_CASE("grids that share a name are told apart")
     CHECK(readLevelSet(folder / "two.vdb", listGrids(folder / "two.vdb")[1].name).holder().grid->activeVoxelCount() >
           0);
 }
+
+TEST_CASE("a level set that is cut short anywhere is refused by name")
+{
+    const TemporaryFolder folder;
+    writeLevelSet(levelSet(bandGrid(sphere(1.0), uniformTransform(0.1), 16)), folder / "whole.vdb");
+    const std::string whole = readFile(folder / "whole.vdb");
+    // OpenVDB does not notice that the last values' very last bytes are missing.
+    for (std::size_t length = 0; length + 64 < whole.size(); length += whole.size() / 40) {
+        folder.write("cut.vdb", whole.substr(0, length));
+        INFO(length << " of " << whole.size() << " bytes");
+        CHECK_THROWS_AS(readLevelSet(folder / "cut.vdb"), InputError);
+    }
+}

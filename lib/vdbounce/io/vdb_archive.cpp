@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <functional>
+#include <new>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -82,6 +83,10 @@ void withVdbFile(const std::string& path, const std::function<void(openvdb::io::
     } catch (const openvdb::Exception& error) {
         throw InputError(path, std::string("cannot be read as OpenVDB (") + error.what() + ")",
                          "it is damaged or no .vdb file; write it again");
+    } catch (const std::bad_alloc&) {
+        // What OpenVDB makes of a file that is cut short may be a count of anything.
+        throw InputError(path, "asks for more memory than there is",
+                         "it is damaged, or too large for this machine; write it again, with larger voxels");
     }
 }
 
