@@ -132,7 +132,7 @@ TEST_CASE("particles that cannot be stepped are kept and counted, and refused wh
     const ToolRun run = runTool(scene + " --json");
     REQUIRE(run.exitCode == 0);
     CHECK(Json::parse(run.out)["rejected"] == 3);
-    CHECK_THAT(readFile(folder / "o.0001.csv"), Catch::Contains("\nnan,0,0,0,0,0,0.1,1,1\n"));
+    CHECK_THAT(readFile(folder / "o.0001.csv"), Catch::Contains("\nnan,0,0,0,0,0,0.1,1,1,1\n"));
     CHECK(runTool(scene + " --strict").exitCode == 3);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/grids.h"
 #include "support/random.h"
+#include "support/still_colliders.h"
 
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/contact/step.h"
@@ -21,7 +22,7 @@ constexpr double kGravity = 9.81;
 // The same half space as an analytic plane, as a level set along the axes, and as one turned off them.
 struct Ground {
     const char* name;
-    decltype(Collider::shape) shape;
+    Shape shape;
 };
 
 std::vector<Ground> grounds(const Vec3d& normal)
@@ -37,12 +38,13 @@ std::vector<Ground> grounds(const Vec3d& normal)
             {"turned level set", field(turned)}};
 }
 
-ColliderSet single(const Ground& ground, double restitution, double friction)
+StillColliders single(const Ground& ground, double restitution, double friction)
 {
-    return ColliderSet({{"ground", ground.shape, restitution, friction}});
+    return StillColliders({{"ground", ground.shape, restitution, friction}});
 }
 
-MovingParticle placed(const Vec3d& position, const Vec3d& velocity, const ColliderSet& colliders, double radius = 0.0)
+MovingParticle placed(const Vec3d& position, const Vec3d& velocity, const PlacedColliders& colliders,
+                      double radius = 0.0)
 {
     MovingParticle particle;
     particle.position = position;
@@ -66,7 +68,7 @@ TEST_CASE("restitution ladder: peak k is (h0 - r) e^(2k) + r")
     for (const Ground& ground : grounds(kUp)) {
         for (double e : {0.5, 0.7, 0.9, 1.0}) {
             INFO(ground.name << ", restitution " << e);
-            const ColliderSet colliders = single(ground, e, 0.3);
+            const StillColliders colliders = single(ground, e, 0.3);
             const double radius = 0.02;
             const double h0 = 1.0;
             StepOptions options;
@@ -100,7 +102,7 @@ TEST_CASE("a sliding particle stops after v0^2 / (2 mu g)")
 {
     for (const Ground& ground : grounds(kUp)) {
         INFO(ground.name);
-        const ColliderSet colliders = single(ground, 0.4, 0.3);
+        const StillColliders colliders = single(ground, 0.4, 0.3);
         StepOptions options;
         options.dt = 1e-3;
         const double v0 = 2.0;
@@ -121,7 +123,7 @@ TEST_CASE("on an incline a particle rests exactly while tan(theta) <= mu, and el
         const Vec3d downhill(std::cos(theta), -std::sin(theta), 0);
         for (const Ground& ground : grounds(normal)) {
             INFO(ground.name << ", " << theta * 180 / M_PI << " degrees");
-            const ColliderSet colliders = single(ground, 0.3, mu);
+            const StillColliders colliders = single(ground, 0.3, mu);
             StepOptions options;
             options.dt = 1e-3;
             const Vec3d start = (0.011 + 1e-6) * normal - 0.5 * downhill;
@@ -149,7 +151,7 @@ TEST_CASE("a resting particle stays where it is, to the bit")
 {
     for (const Ground& ground : grounds(Vec3d(0.1, 1, -0.05))) {
         INFO(ground.name);
-        const ColliderSet colliders = single(ground, 0.5, 0.6);
+        const StillColliders colliders = single(ground, 0.5, 0.6);
         StepOptions options;
         MovingParticle particle = placed(Vec3d(0.1, 0.2, 0.1), Vec3d::Zero(), colliders, 0.03);
         StepTally tally(1);
@@ -177,7 +179,7 @@ TEST_CASE("what starts outside ends outside, and energy never grows, in random s
                             e, mu});
         }
         list.push_back({"floor", PlaneField(Vec3d(0, -0.5, 0), Vec3d(random.uniform(-0.3, 0.3), 1, 0)), e, mu});
-        const ColliderSet colliders(std::move(list));
+        const StillColliders colliders(std::move(list));
         StepOptions options;
         options.dt = std::pow(10.0, random.uniform(-3.5, -1.5));
         for (int i = 0; i < 60; ++i) {
@@ -202,7 +204,7 @@ TEST_CASE("what starts outside ends outside, and energy never grows, in random s
 
 TEST_CASE("a particle that starts inside comes out and does not shoot off")
 {
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"ball",
           std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22, 5.0))), 0.9,
           0.1}});
@@ -222,7 +224,7 @@ TEST_CASE("a particle deep inside, where the band has no gradient, comes out by 
 {
     VDBOUNCE_RANDOM(random);
     const Phi phi = sphere(1.5); // 30 voxels
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(phi, uniformTransform(0.05), 40))), 0.3,
           0.5}});
     StepOptions options;
@@ -243,7 +245,7 @@ TEST_CASE("a particle deep inside, where the band has no gradient, comes out by 
 
 TEST_CASE("a collider takes the opposite impulse")
 {
-    const ColliderSet colliders = single(grounds(kUp)[0], 0.5, 0.3);
+    const StillColliders colliders = single(grounds(kUp)[0], 0.5, 0.3);
     StepOptions options;
     options.dt = 1e-3;
     MovingParticle particle = placed(Vec3d(0, 0.5, 0), Vec3d(1, 0, 0), colliders);
@@ -259,7 +261,7 @@ TEST_CASE("a collider takes the opposite impulse")
 TEST_CASE("skipping lookups by clearance changes no bit")
 {
     VDBOUNCE_RANDOM(random);
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
           0.5, 0.3},
          {"floor", PlaneField(Vec3d(0, -1, 0), kUp), 0.5, 0.3}});
@@ -283,7 +285,7 @@ TEST_CASE("skipping lookups by clearance changes no bit")
 TEST_CASE("a pass has the same bits for any number of threads and any split into passes")
 {
     VDBOUNCE_RANDOM(random);
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
           0.5, 0.3},
          {"floor", PlaneField(Vec3d(0, -1, 0), kUp), 0.5, 0.3}});
@@ -320,7 +322,7 @@ TEST_CASE("a pass has the same bits for any number of threads and any split into
 TEST_CASE("a fast particle that starts slightly inside a plate does not pass through it")
 {
     const Phi plate = [](const Vec3d& p) { return std::abs(p.y()) - 0.1; };
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"plate", std::make_shared<const DistanceField>(levelSet(bandGrid(plate, uniformTransform(0.05), 20))), 0.5,
           0.2}});
     StepOptions options;
@@ -336,7 +338,7 @@ TEST_CASE("a fast particle that starts slightly inside a plate does not pass thr
 TEST_CASE("angular impulse is that of the point of contact, also for fast particles")
 {
     const Phi plate = [](const Vec3d& p) { return std::abs(p.y()) - 0.1; };
-    const ColliderSet colliders(
+    const StillColliders colliders(
         {{"plate", std::make_shared<const DistanceField>(levelSet(bandGrid(plate, uniformTransform(0.05), 60))), 0.3,
           0.0}});
     StepOptions options;
@@ -356,7 +358,7 @@ TEST_CASE("speeds without any sense end the step and not the run")
         {"ball", std::make_shared<const DistanceField>(levelSet(bandGrid(sphere(0.8), uniformTransform(0.05), 22))),
          0.5, 0.3}};
     list.push_back({"floor", PlaneField(Vec3d::Zero(), kUp), 0.5, 0.3});
-    const ColliderSet colliders(std::move(list));
+    const StillColliders colliders(std::move(list));
     StepOptions options;
     options.gravity = Vec3d::Zero();
     for (double speed : {1e8, 1e17, 1e100, 1e200, 1e308}) {
@@ -371,7 +373,7 @@ TEST_CASE("an empty level set is nowhere")
 {
     auto grid = openvdb::FloatGrid::create(0.3f);
     grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    const ColliderSet colliders({{"nothing", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
+    const StillColliders colliders({{"nothing", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
     StepOptions options;
     MovingParticle particle = placed(Vec3d(0, 5, 0), Vec3d::Zero(), colliders, 0.5);
     StepTally tally(1);
@@ -388,7 +390,7 @@ TEST_CASE("a jump between tiles is not missed by the clearance")
     grid->fill(openvdb::CoordBBox(openvdb::Coord(-32), openvdb::Coord(31)), 0.3f, true);
     grid->fill(openvdb::CoordBBox(openvdb::Coord(-16), openvdb::Coord(15)), -0.3f, true);
     grid->tree().prune();
-    const ColliderSet colliders({{"block", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
+    const StillColliders colliders({{"block", std::make_shared<const DistanceField>(levelSet(grid)), 0.5, 0.3}});
     StepOptions options;
     MovingParticle particle = placed(Vec3d(0, 1.61, 0), Vec3d(0, -20, 0), colliders);
     REQUIRE_FALSE(particle.inside);

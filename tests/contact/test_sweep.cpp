@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/grids.h"
 #include "support/random.h"
+#include "support/still_colliders.h"
 
 #include "vdbounce/contact/step.h"
 #include "vdbounce/contact/sweep.h"
@@ -10,9 +11,9 @@ using namespace vdbounce::test;
 
 namespace {
 
-ColliderSet one(const LevelSetGrid& grid)
+StillColliders one(const LevelSetGrid& grid)
 {
-    return ColliderSet({{"thing", std::make_shared<const DistanceField>(grid), 0.5, 0.2}});
+    return StillColliders({{"thing", std::make_shared<const DistanceField>(grid), 0.5, 0.2}});
 }
 
 // A square plate, `thicknessVx` voxels of 0.05 thick, in the plane y = 0.013.
@@ -31,26 +32,26 @@ LevelSetGrid plate(double thicknessVx)
 TEST_CASE("a path finds the first point of a sphere that it meets")
 {
     VDBOUNCE_RANDOM(random);
-    const ColliderSet colliders = one(levelSet(bandGrid(sphere(1.0), uniformTransform(0.04), 30)));
+    const StillColliders colliders = one(levelSet(bandGrid(sphere(1.0), uniformTransform(0.04), 30)));
     for (int i = 0; i < 5000; ++i) {
         const Vec3d from = 3.0 * random.direction();
         const Vec3d aim = 0.8 * random.direction();
         const Vec3d to = from + 3.0 * (aim - from);
         const double radius = i % 2 == 0 ? 0.0 : 0.05;
-        const PathHit hit = sweepPath(colliders, from, to, radius, 0.01);
+        const PathHit hit = sweepPath(colliders, from, to, radius);
         REQUIRE(hit.hit);
         REQUIRE(hit.position.norm() == Approx(1.0 + radius).margin(5e-3));
         REQUIRE(hit.position.dot(to - from) < 0.0); // on the near side
         REQUIRE(colliders.probe(hit.position, radius).gap >= 0.0);
     }
-    CHECK_FALSE(sweepPath(colliders, Vec3d(-3, 1.2, 0), Vec3d(3, 1.2, 0), 0.0, 0.01).hit);
-    CHECK_FALSE(sweepPath(colliders, Vec3d(2, 0, 0), Vec3d(2, 0, 0), 0.0, 0.01).hit);
+    CHECK_FALSE(sweepPath(colliders, Vec3d(-3, 1.2, 0), Vec3d(3, 1.2, 0), 0.0).hit);
+    CHECK_FALSE(sweepPath(colliders, Vec3d(2, 0, 0), Vec3d(2, 0, 0), 0.0).hit);
 }
 
 TEST_CASE("no particle passes a plate two voxels thick at any speed")
 {
     VDBOUNCE_RANDOM(random);
-    const ColliderSet colliders = one(plate(2.0));
+    const StillColliders colliders = one(plate(2.0));
     StepOptions options;
     options.gravity = Vec3d::Zero();
     options.dt = 0.01;

@@ -119,7 +119,7 @@ Json toJson(const RunReport& run)
             {"swept", tally.swept},
             {"unresolved", tally.unresolved},
             {"rejected", run.rejected},
-            {"deleted", 0},
+            {"deleted", run.deleted},
             {"max_penetration", tally.maxPenetration},
             {"energy_initial", run.energyInitial},
             {"energy_final", run.energyFinal},
@@ -135,7 +135,7 @@ std::string toText(const RunReport& run)
                        rounded(run.particleStepsPerSecond() * 1e-6) + " million particle steps a second)\n";
     text += "particle steps: " + grouped(tally.free) + " free, " + grouped(tally.near) + " near, " +
             grouped(tally.contacts) + " in contact, " + grouped(tally.swept) + " swept, " + grouped(tally.unresolved) +
-            " unresolved; " + grouped(run.rejected) + " particles rejected\n";
+            " unresolved; " + grouped(run.rejected) + " particles rejected, " + grouped(run.deleted) + " deleted\n";
     text += "deepest penetration " + rounded(tally.maxPenetration) + "; energy " + rounded(run.energyInitial) + " to " +
             rounded(run.energyFinal);
     if (!run.files.empty())

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vdbounce {
@@ -11,13 +12,11 @@ namespace {
 // Particles a task: some tenths of a millisecond of work, and few enough that a thousand tasks share out evenly.
 constexpr std::size_t kParticlesPerBlock = 1024;
 
-constexpr int kStepsBetweenChecks = 4096; // about a millisecond of one particle's steps
-
-MovingParticle load(const Particles& particles, std::size_t i, const ParticleDefaults& defaults)
+MovingParticle fromArrays(const Particles& particles, std::size_t i, const ParticleDefaults& defaults)
 {
     MovingParticle particle;
     particle.position = particles.position[i];
-    particle.velocity = particles.velocity[i];
+    particle.velocity = particles.velocity.empty() ? Vec3d(Vec3d::Zero()) : particles.velocity[i];
     particle.radius = particles.radius.empty() ? defaults.radius : particles.radius[i];
     particle.mass = particles.mass.empty() ? defaults.mass : particles.mass[i];
     return particle;
@@ -29,44 +28,218 @@ bool canBeStepped(const MovingParticle& particle)
            std::isfinite(particle.radius) && particle.mass > 0.0 && std::isfinite(particle.mass);
 }
 
-struct Partial {
-    StepTally tally;
-    std::uint64_t rejected = 0;
-
-    Partial& operator+=(const Partial& other)
-    {
-        tally += other.tally;
-        rejected += other.rejected;
-        return *this;
+bool anySticks(const ColliderSet& colliders)
+{
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        if (colliders[i].onHit == OnHit::Stick) return true;
     }
-};
+    return false;
+}
 
 } // namespace
+
+ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, const PassOptions& options)
+    : particles_(particles), colliders_(&colliders), options_(options), step_(options.firstStep),
+      memory_(particles.size()), skipped_(particles.size(), 0)
+{
+    particles_.ensureVelocity();
+    if (options.hits && particles_.hits.empty()) particles_.hits.resize(particles_.size());
+    if (anySticks(colliders) && particles_.stuckTo.empty())
+        particles_.stuckTo.assign(particles_.size(), MovingParticle::kNotStuck);
+    std::fill(particles_.rejected.begin(), particles_.rejected.end(), std::uint8_t(0));
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+        if (canBeStepped(fromArrays(particles_, i, options.defaults))) continue;
+        skipped_[i] = 1;
+        if (particles_.rejected.empty()) particles_.rejected.assign(particles_.size(), 0);
+        particles_.rejected[i] = 1;
+    }
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        bodies_.push_back(colliders[i].body ? std::optional<RigidBody>(*colliders[i].body) : std::nullopt);
+    }
+}
+
+void ParticlePass::setColliders(const ColliderSet& colliders)
+{
+    colliders_ = &colliders;
+    settled_ = false;
+}
+
+MovingParticle ParticlePass::load(std::size_t i)
+{
+    MovingParticle particle = fromArrays(particles_, i, options_.defaults);
+    particle.clearance = memory_[i].clearance;
+    particle.inside = memory_[i].inside;
+    particle.touching = memory_[i].touching;
+    if (!particles_.stuckTo.empty()) particle.stuckTo = particles_.stuckTo[i];
+    if (options_.hits) particle.hits = &particles_.hits[i];
+    return particle;
+}
+
+void ParticlePass::store(std::size_t i, const MovingParticle& particle)
+{
+    particles_.position[i] = particle.position;
+    particles_.velocity[i] = particle.velocity;
+    memory_[i] = {particle.clearance, particle.inside, particle.touching};
+    if (!particles_.stuckTo.empty()) particles_.stuckTo[i] = particle.stuckTo;
+    if (particle.deleted) skipped_[i] = 1;
+}
+
+// The colliders during one step; without a length, as they are when it begins.
+PlacedColliders ParticlePass::placedAt(std::uint64_t step, double dt) const
+{
+    PlacedColliders placed(*colliders_, timeOf(step), dt);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (!bodies_[i]) continue;
+        RigidBody moved = *bodies_[i];
+        moved.move(dt);
+        placed.place(i, bodies_[i]->pose(), moved.pose(), moved.velocity());
+        placed.share(i, BodyShare(moved, 1.0));
+    }
+    return placed;
+}
+
+void ParticlePass::settleAll()
+{
+    const PlacedColliders placed = placedAt(step_, 0.0);
+    forEachIndex(particles_.size(), kParticlesPerBlock, [&](std::size_t i) {
+        if (skipped_[i] != 0) return;
+        MovingParticle particle = load(i);
+        settle(particle, placed);
+        memory_[i] = {particle.clearance, particle.inside, memory_[i].touching};
+    });
+    settled_ = true;
+}
+
+// Each particle through all steps before the next.
+StepTally ParticlePass::advanceApart(int steps, Progress& progress)
+{
+    std::vector<PlacedColliders> placed;
+    const bool still = colliders_->still();
+    for (int s = 0; s < (still ? 1 : steps); ++s)
+        placed.push_back(placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt));
+    ProgressCounter counter(progress, particles_.size());
+    return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
+        throwIfStopped(progress);
+        StepTally tally(colliders_->size());
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            if (skipped_[i] != 0) continue;
+            MovingParticle particle = load(i);
+            for (int s = 0; s < steps && !particle.deleted; ++s)
+                step(particle, placed[still ? 0 : std::size_t(s)], options_.step, tally);
+            store(i, particle);
+        }
+        counter.add(range.end - range.begin);
+        return tally;
+    });
+}
+
+// How many particles would push each body in this step: each then meets that share of its mass.
+void ParticlePass::shareBodies(PlacedColliders& placed)
+{
+    using Counts = std::vector<std::uint64_t>;
+    struct Sum {
+        Counts counts;
+        Sum& operator+=(const Sum& other)
+        {
+            for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
+            return *this;
+        }
+    };
+    const Sum sum =
+        reduceBlocks(particles_.size(), kParticlesPerBlock, Sum{Counts(bodies_.size(), 0)}, [&](IndexRange range) {
+            Sum part{Counts(bodies_.size(), 0)};
+            StepTally trial(bodies_.size());
+            for (std::size_t i = range.begin; i < range.end; ++i) {
+                if (skipped_[i] != 0) continue;
+                MovingParticle particle = load(i);
+                particle.hits = nullptr;
+                for (Vec3d& impulse : trial.impulse) impulse.setZero();
+                step(particle, placed, options_.step, trial);
+                for (std::size_t b = 0; b < bodies_.size(); ++b)
+                    part.counts[b] += bodies_[b] && !trial.impulse[b].isZero(0.0) ? 1 : 0;
+            }
+            return part;
+        });
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!bodies_[b]) continue;
+        RigidBody moved = *bodies_[b];
+        moved.move(options_.step.dt);
+        placed.share(b, BodyShare(moved, double(std::max<std::uint64_t>(1, sum.counts[b]))));
+    }
+}
+
+// All particles through each step before the next, since they move what the others meet.
+StepTally ParticlePass::advanceTogether(int steps, Progress& progress)
+{
+    StepTally total(colliders_->size());
+    ProgressCounter counter(progress, static_cast<std::uint64_t>(steps));
+    for (int s = 0; s < steps; ++s) {
+        throwIfStopped(progress);
+        for (auto& body : bodies_) {
+            if (body) body->accelerate(options_.step.gravity, options_.step.dt);
+        }
+        PlacedColliders placed = placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt);
+        shareBodies(placed);
+        const StepTally tally =
+            reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
+                StepTally part(colliders_->size());
+                for (std::size_t i = range.begin; i < range.end; ++i) {
+                    if (skipped_[i] != 0) continue;
+                    MovingParticle particle = load(i);
+                    step(particle, placed, options_.step, part);
+                    store(i, particle);
+                }
+                return part;
+            });
+        for (std::size_t b = 0; b < bodies_.size(); ++b) {
+            if (!bodies_[b]) continue;
+            bodies_[b]->move(options_.step.dt);
+            bodies_[b]->push(tally.impulse[b], tally.angularImpulse[b]);
+        }
+        total += tally;
+        counter.add(1);
+    }
+    return total;
+}
+
+std::uint64_t ParticlePass::removeDeleted()
+{
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < skipped_.size(); ++i) {
+        const bool rejected = !particles_.rejected.empty() && particles_.rejected[i] != 0;
+        if (skipped_[i] == 0 || rejected) kept.push_back(i);
+    }
+    const std::uint64_t deleted = skipped_.size() - kept.size();
+    if (deleted == 0) return 0;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        memory_[k] = memory_[kept[k]];
+        skipped_[k] = skipped_[kept[k]];
+    }
+    memory_.resize(kept.size());
+    skipped_.resize(kept.size());
+    keepOnly(particles_, kept);
+    return deleted;
+}
+
+PassReport ParticlePass::advance(int steps, Progress& progress)
+{
+    if (!settled_) settleAll();
+    PassReport report;
+    report.tally = colliders_->anyFree() ? advanceTogether(steps, progress) : advanceApart(steps, progress);
+    step_ += static_cast<std::uint64_t>(steps);
+    report.deleted = removeDeleted();
+    report.rejected =
+        static_cast<std::uint64_t>(std::count(particles_.rejected.begin(), particles_.rejected.end(), std::uint8_t(1)));
+    return report;
+}
 
 PassReport advanceParticles(Particles& particles, const ColliderSet& colliders, const StepOptions& options,
                             const ParticleDefaults& defaults, int steps, Progress& progress)
 {
-    ProgressCounter counter(progress, particles.size());
-    const Partial sum = reduceBlocks(particles.size(), kParticlesPerBlock, Partial{StepTally(colliders.size()), 0},
-                                     [&](IndexRange range) {
-                                         throwIfStopped(progress);
-                                         Partial part{StepTally(colliders.size()), 0};
-                                         for (std::size_t i = range.begin; i < range.end; ++i) {
-                                             MovingParticle particle = load(particles, i, defaults);
-                                             if (!canBeStepped(particle)) {
-                                                 ++part.rejected;
-                                                 continue;
-                                             }
-                                             settle(particle, colliders);
-                                             for (int s = 0; s < steps; ++s)
-                                                 step(particle, colliders, options, part.tally);
-                                             particles.position[i] = particle.position;
-                                             particles.velocity[i] = particle.velocity;
-                                         }
-                                         counter.add(range.end - range.begin);
-                                         return part;
-                                     });
-    return {sum.tally, sum.rejected};
+    PassOptions pass;
+    pass.step = options;
+    pass.defaults = defaults;
+    return ParticlePass(particles, colliders, pass).advance(steps, progress);
 }
 
 double totalEnergy(const Particles& particles, const ParticleDefaults& defaults, const Vec3d& gravity)
@@ -74,7 +247,7 @@ double totalEnergy(const Particles& particles, const ParticleDefaults& defaults,
     return reduceBlocks(particles.size(), kParticlesPerBlock, 0.0, [&](IndexRange range) {
         double energy = 0.0;
         for (std::size_t i = range.begin; i < range.end; ++i) {
-            const MovingParticle p = load(particles, i, defaults);
+            const MovingParticle p = fromArrays(particles, i, defaults);
             if (canBeStepped(p)) energy += p.mass * (0.5 * p.velocity.squaredNorm() - gravity.dot(p.position));
         }
         return energy;

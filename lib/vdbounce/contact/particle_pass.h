@@ -6,6 +6,8 @@
 #include "vdbounce/particles/particles.h"
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace vdbounce {
 
@@ -19,14 +21,70 @@ struct ParticleDefaults {
 struct PassReport {
     StepTally tally;
     std::uint64_t rejected = 0; ///< particles left as they came: not finite, or a negative radius or mass
+    std::uint64_t deleted = 0;  ///< removed by what they hit
 };
 
-/// Advances all particles by `steps` steps, in parallel.
+struct PassOptions {
+    StepOptions step;
+    ParticleDefaults defaults;
+    std::uint64_t firstStep = 0; ///< steps that lie before; times of motions are the number of the step times dt
+    bool hits = false;           ///< keep Particles::hits
+    bool interact = false;       ///< particles collide with each other
+};
+
+/// Advances a set of particles, in parallel, and remembers between calls what it knows of them: how far each can move
+/// before it could touch anything.
 ///
-/// Particles do not see each other, so each is taken through all its steps while it and the voxels around it are in
-/// the cache. Results, sums included, have the same bits for any number of threads.
-/// Needs particles.velocity (see Particles::ensureVelocity). Tells `progress` of particles done. Throws Interrupted,
-/// with some particles advanced and others not.
+/// Where no collider is moved by particles these do not see each other, so each is taken through all steps of a call
+/// while it and the voxels around it are in the cache. Results, sums included, have the same bits for any number of
+/// threads and any split of the steps into calls.
+///
+///     ParticlePass pass(particles, colliders, options);
+///     for (int frame = 0; frame < 48; ++frame) pass.advance(10);
+class ParticlePass {
+public:
+    /// Holds on to both; they must outlive it, and particles may be changed by it only. Adds velocities where there are
+    /// none.
+    ParticlePass(Particles& particles, const ColliderSet& colliders, const PassOptions& options);
+
+    /// Goes on with other colliders: as many, in the same order, such as the next forms of deforming ones.
+    void setColliders(const ColliderSet& colliders);
+
+    /// Tells `progress` of particle steps done. Throws Interrupted, with some particles advanced and others not.
+    PassReport advance(int steps, Progress& progress = Progress::none());
+
+    /// The bodies of those colliders that particles move, in the order of the colliders; nothing for the others.
+    const std::vector<std::optional<RigidBody>>& bodies() const { return bodies_; }
+
+private:
+    // What is kept of a particle between steps.
+    struct Memory {
+        double clearance;
+        bool inside;
+        bool touching;
+    };
+
+    double timeOf(std::uint64_t step) const { return double(step) * options_.step.dt; }
+    MovingParticle load(std::size_t i);
+    void store(std::size_t i, const MovingParticle& particle);
+    void settleAll();
+    PlacedColliders placedAt(std::uint64_t step, double dt) const;
+    StepTally advanceApart(int steps, Progress& progress);
+    StepTally advanceTogether(int steps, Progress& progress);
+    void shareBodies(PlacedColliders& placed);
+    std::uint64_t removeDeleted();
+
+    Particles& particles_;
+    const ColliderSet* colliders_;
+    PassOptions options_;
+    std::uint64_t step_;
+    std::vector<Memory> memory_;
+    std::vector<std::uint8_t> skipped_; // deleted or rejected
+    std::vector<std::optional<RigidBody>> bodies_;
+    bool settled_ = false;
+};
+
+/// The same in one call, for particles of which nothing is known yet.
 PassReport advanceParticles(Particles& particles, const ColliderSet& colliders, const StepOptions& options,
                             const ParticleDefaults& defaults, int steps, Progress& progress = Progress::none());
 

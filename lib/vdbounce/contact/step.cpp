@@ -1,20 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/step.h"
 
-#include "vdbounce/contact/collide_contact.h"
+#include "vdbounce/contact/free_flight.h"
+#include "vdbounce/contact/particle_step.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace vdbounce {
+namespace {
 
-void settle(MovingParticle& particle, const ColliderSet& colliders)
+// Moves along with the collider it stuck to.
+void ride(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
+{
+    const auto collider = static_cast<std::size_t>(particle.stuckTo);
+    const Vec3d before = particle.velocity + options.dt * options.gravity;
+    particle.position = colliders.carried(collider, particle.position);
+    particle.velocity = colliders.surfaceVelocity(collider, particle.position);
+    const Vec3d impulse = -particle.mass * (particle.velocity - before);
+    tally.impulse[collider] += impulse;
+    tally.angularImpulse[collider] += particle.position.cross(impulse);
+}
+
+void stick(ParticleStep& step, const Touch& touch)
+{
+    const Vec3d before = step.endVelocity;
+    step.particle.stuckTo = static_cast<int>(touch.collider);
+    // Where it touches when it touches, and from there on with the collider.
+    step.candidate = touch.centre;
+    const bool inside = step.penetrates();
+    if (inside && touch.hasNormal) step.candidate -= step.probe.gap * touch.normal;
+    step.endVelocity = step.colliders.surfaceVelocity(touch.collider, step.candidate);
+    step.react(touch.collider, touch.centre, step.endVelocity - before);
+}
+
+// Whether the collider keeps or removes what touches it.
+bool takes(ParticleStep& step, const Touch& touch)
+{
+    const OnHit onHit = step.colliders[touch.collider].onHit;
+    if (onHit == OnHit::Delete) step.particle.deleted = true;
+    if (onHit == OnHit::Stick) stick(step, touch);
+    return onHit != OnHit::Bounce;
+}
+
+void answer(ParticleStep& step, const Touch& touch)
+{
+    ++step.tally.contacts;
+    step.record(touch);
+    if (takes(step, touch)) return;
+    switch (step.options.scheme) {
+    case Scheme::Once: once(step, touch); break;
+    case Scheme::Iterate: iterate(step, touch); break;
+    case Scheme::CollideContact: collideContact(step, touch); break;
+    }
+}
+
+// For a particle that began inside.
+void answerInside(ParticleStep& step)
+{
+    if (step.penetrates()) {
+        Touch touch;
+        touch.touching = true;
+        touch.collider = step.probe.collider;
+        touch.centre = step.candidate;
+        if (takes(step, touch)) return;
+    }
+    if (step.options.scheme == Scheme::Once) {
+        repel(step);
+    } else {
+        recover(step);
+    }
+}
+
+void answerNear(ParticleStep& step)
+{
+    MovingParticle& particle = step.particle;
+    if (step.options.repulsion.range > 0.0) applyRepulsion(step);
+    if (particle.inside) {
+        answerInside(step);
+        particle.touching = true;
+    } else {
+        const Touch touch = step.look();
+        if (touch.touching) answer(step, touch);
+        particle.touching = touch.touching;
+    }
+    step.accept();
+    particle.clearance = step.probe.clearance;
+    particle.inside = step.probe.gap < 0.0;
+    if (particle.inside && particle.stuckTo == MovingParticle::kNotStuck && !particle.deleted) {
+        ++step.tally.unresolved;
+        step.tally.maxPenetration = std::max(step.tally.maxPenetration, -step.probe.gap);
+    }
+}
+
+} // namespace
+
+void settle(MovingParticle& particle, const PlacedColliders& colliders)
 {
     const Probe probe = colliders.probe(particle.position, particle.radius);
     particle.clearance = probe.clearance;
     particle.inside = probe.gap < 0.0;
 }
 
-void step(MovingParticle& particle, const ColliderSet& colliders, const StepOptions& options, StepTally& tally)
+void step(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
 {
-    CollideContact(particle, colliders, options, tally).run();
+    if (particle.deleted) return;
+    if (particle.stuckTo != MovingParticle::kNotStuck) {
+        ++tally.free;
+        ride(particle, colliders, options, tally);
+        return;
+    }
+    ParticleStep step(particle, colliders, options, tally);
+    const double way = (step.candidate - step.start).norm();
+    if (!std::isfinite(way)) {
+        // Faster than numbers go: nothing can be said about where it would be.
+        ++tally.near;
+        ++tally.unresolved;
+        return;
+    }
+    if (way + colliders.reach() + options.repulsion.range < particle.clearance) {
+        ++tally.free;
+        particle.touching = false;
+        step.accept();
+        particle.clearance -= way + colliders.reach() + roundingOf(step.candidate);
+        return;
+    }
+    ++tally.near;
+    answerNear(step);
 }
 
 } // namespace vdbounce

@@ -1,23 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vdbounce/contact/collider.h"
+#include "vdbounce/contact/placed_colliders.h"
 #include "vdbounce/contact/step_tally.h"
+#include "vdbounce/particles/hit_record.h"
 
 namespace vdbounce {
 
 /// When to look for collisions along a particle's path and not only at its end.
 enum class Sweep {
-    Auto,   ///< where the step is longer than a voxel and may have touched something on the way
+    Auto,   ///< where the step is longer than half a voxel and may have touched something on the way
     Always, ///< where the step may have touched something on the way
     Never,
+};
+
+/// How a particle that penetrates at the end of a step is answered: the lecture's three numerical implementations.
+enum class Scheme {
+    Once,           ///< one response; what then penetrates another collider is left to the next step (slide 2)
+    Iterate,        ///< responses until it is outside, each after the first losing energy (slide 5)
+    CollideContact, ///< elastic collisions of the velocity before the step, then inelastic contact (slide 8)
+};
+
+/// A force that keeps particles away from surfaces: within `range` of touching, an acceleration outward that grows
+/// linearly from 0 at `range` to `strength` at the surface (slide 20). Coulomb friction as for contact.
+struct Repulsion {
+    double range = 0.0;    ///< world units, >= 0; 0 is none
+    double strength = 0.0; ///< world units / s^2, >= 0
 };
 
 struct StepOptions {
     double dt = 0.004;                      ///< seconds, > 0
     Vec3d gravity = Vec3d(0.0, -9.81, 0.0); ///< world units / s^2
-    int maxBounces = 3;                     ///< elastic collisions a step, >= 0
+    Scheme scheme = Scheme::CollideContact;
+    int maxBounces = 3; ///< elastic collisions a step, >= 0; of CollideContact
     Sweep sweep = Sweep::Auto;
+    Repulsion repulsion;
 };
 
 /// A particle while it is being stepped.
@@ -26,30 +43,43 @@ struct MovingParticle {
     Vec3d velocity;
     double radius = 0.0;
     double mass = 1.0;
-    /// Lower bound on how far it can move without touching anything, shrunk by every step's way; while it is
-    /// longer than the step, no collider is looked at.
+    /// Lower bound on how far it can move without touching anything, shrunk by every step's way and by what colliders
+    /// move; while it is longer than the step, no collider is looked at.
     double clearance = 0.0;
-    bool inside = false; ///< it penetrates a collider
+    bool inside = false;       ///< it penetrates a collider
+    bool touching = false;     ///< it touched one in the last step
+    bool deleted = false;      ///< it touched one that deletes; no more steps
+    int stuckTo = kNotStuck;   ///< the collider that it moves along with
+    HitRecord* hits = nullptr; ///< where to write hits; null: nowhere
+
+    static constexpr int kNotStuck = -1;
 };
 
-/// Finds out what surrounds a particle; needed before its first step.
-void settle(MovingParticle& particle, const ColliderSet& colliders);
+/// Finds out what surrounds a particle; needed before its first step, with the colliders as they are then.
+void settle(MovingParticle& particle, const PlacedColliders& colliders);
 
-/// Advances one particle by one step with the lecture's third scheme, collide-contact (slide 8):
+/// Advances one particle by one step, during which the colliders move as placed. The candidate is
+/// v* = v + dt g, x* = x + dt (v + v*) / 2; where it, or the path to it, touches, `options.scheme` answers:
 ///
-/// 1. The candidate: v* = v + dt g, x* = x + dt (v + v*) / 2.
-/// 2. While x* penetrates and the velocity v from the start of the step approaches, up to maxBounces times: an elastic
-///    collision of v, and a new candidate from it.
-/// 3. While x* still penetrates: inelastic contact. The average velocity (x* - x) / dt is answered with restitution 0
-/// and
-///    moves the particle, x* = x + dt v_average; the end velocity v* is answered the same way. What is then left
-///    inside, as on a curved surface, is moved out along the normal.
+/// CollideContact. 1. While x* penetrates and the velocity v from the start of the step approaches, up to maxBounces
+/// times: an elastic collision of v, and a new candidate from it. 2. While x* still penetrates: inelastic contact. The
+/// average velocity (x* - x) / dt is answered with restitution 0 and moves the particle; the end velocity v* is
+/// answered the same way. What is then left inside, as on a curved surface, is moved out along the normal. Resting
+/// particles have v = 0 at the start of the step, so they keep exactly in place.
 ///
-/// To a particle outside colliders at rest never add energy: what being moved out gains in height is taken from the
-/// speed. A particle that starts outside ends outside: one that cannot be resolved stays where it was, at rest, and is
-/// counted. One that starts inside is answered inelastically and moved out in proportion to its depth.
-/// Resting particles have v = 0 at the start of the step, so step 2 leaves them alone and step 3 keeps them exactly in
-/// place.
-void step(MovingParticle& particle, const ColliderSet& colliders, const StepOptions& options, StepTally& tally);
+/// Iterate. While x* penetrates: the average velocity is answered with the collider's restitution, halved each time
+/// after the first, and becomes the velocity; x* = x + dt v.
+///
+/// Once. The same, once.
+///
+/// Velocities are relative to the collider's surface: collisions at the contact and the end of the step, contact over
+/// the whole step, so that what sticks moves along exactly.
+///
+/// With every scheme: against colliders that never move, a particle that began outside gains no energy: what being
+/// moved gains in height is taken from the speed. With Iterate and CollideContact, what begins outside ends outside:
+/// one that cannot be resolved stays where it was, relative to the collider, at rest, and is counted. What begins
+/// inside is answered inelastically and moved out in proportion to its depth; with Once it gets the impulse that does
+/// so (slide 3).
+void step(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally);
 
 } // namespace vdbounce

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/sweep.h"
 
+#include "vdbounce/field/first_touch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,91 +10,151 @@
 namespace vdbounce {
 namespace {
 
-// Halvings of the bracket, which is at most a step of advancement long: to a ten-millionth of it.
-constexpr int kBisections = 24;
+// How far a piece of a curved path may be from it, voxels, and how many pieces there are at most.
+constexpr double kSagittaVx = 0.05;
+constexpr double kMostPieces = 1024.0;
 
-// Advances along one path at most: a box of 10,000 voxels crossed a quarter of a voxel at a time.
-constexpr double kMostAdvances = 1e5;
+// Strides through a deforming shape: the shortest, voxels, and how many at most.
+constexpr double kShortestStrideVx = 0.25;
+constexpr double kMostStrides = 1e5;
 
-// A straight path by its length, so that a point on it keeps its precision however long it is.
-struct Path {
-    Vec3d from;
-    Vec3d direction; // unit
-    double radius;
-    double shortestStep;
+// Halvings of a bracket that is a stride long: to a ten-millionth of it.
+constexpr int kHalvings = 24;
 
-    Vec3d at(double way) const { return from + way * direction; }
-};
+using FieldPtr = std::shared_ptr<const DistanceField>;
 
-// Between a way that is free and one that is not.
-struct Bracket {
-    double free;
-    double inside;
-};
-
-std::optional<Bracket> bracketTouch(const PlaneField& plane, const Path& path, double length)
-{
-    // The gap to a plane is linear along the path, so its end tells all.
-    if (plane.phi(path.at(length)) - path.radius >= 0.0) return std::nullopt;
-    return Bracket{0.0, length};
-}
-
-std::optional<Bracket> bracketTouch(const std::shared_ptr<const DistanceField>& field, const Path& path, double length)
-{
-    if (field->empty()) return std::nullopt;
-    Span span{0.0, length};
-    if (!field->clipped()) {
-        // phi outside the box is at least the distance to it.
-        Box reach = field->worldBox();
-        reach.min -= Vec3d::Constant(path.radius);
-        reach.max += Vec3d::Constant(path.radius);
-        span = clipToBox(reach, path.from, path.direction, span);
+// A particle's way in the frame of one collider.
+class RelativePath {
+public:
+    RelativePath(const Placement& placement, const Vec3d& from, const Vec3d& to)
+        : placement_(placement), from_(from), to_(to)
+    {
     }
-    const double shortest = std::max(path.shortestStep, (span.end - span.begin) / kMostAdvances);
-    double free = span.begin;
-    double way = span.begin;
-    while (way <= span.end) {
-        const Vec3d here = path.at(way);
-        const double phi = field->phi(here);
-        if (phi - path.radius < 0.0) return Bracket{free, way};
-        if (way == span.end) break;
-        const double clearance = (field->freeDistance(here, phi) - path.radius) / field->lipschitz();
-        free = way;
-        way = std::min(span.end, std::max(way + std::max(clearance, shortest), std::nextafter(way, span.end)));
+
+    Vec3d at(double share) const
+    {
+        const Vec3d world = from_ + share * (to_ - from_);
+        return placement_.moves ? placement_.between(share).toLocal(world) : world;
+    }
+
+    // Pieces whose ends are on the path and that are straight to within `sagitta`.
+    int pieces(double sagitta) const
+    {
+        if (!placement_.moves) return 1;
+        const double angle = (placement_.end.rotation - placement_.begin.rotation).norm() / std::sqrt(2.0);
+        if (!(angle > 0.0)) return 1;
+        const double way = (to_ - from_).norm();
+        const double arm =
+            std::max((from_ - placement_.velocity.centre).norm(), (to_ - placement_.velocity.centre).norm());
+        // A curve of acceleration a is within a/8 of its chord over a unit of time.
+        const double deviation = (angle * angle * arm + 2.0 * angle * way) / 8.0;
+        return int(std::clamp(std::ceil(std::sqrt(deviation / sagitta)), 1.0, kMostPieces));
+    }
+
+private:
+    const Placement& placement_;
+    const Vec3d& from_;
+    const Vec3d& to_;
+};
+
+std::optional<double> touchOf(const PlaneField& plane, const RelativePath& path, double radius,
+                              const Placement& placement, double end)
+{
+    const int pieces = std::isfinite(placement.reach) ? 1 : 64; // a plane that turns
+    double free = 0.0;
+    for (int piece = 1; piece <= pieces; ++piece) {
+        double inside = end * piece / pieces;
+        if (plane.phi(path.at(inside)) - radius >= 0.0) {
+            free = inside;
+            continue;
+        }
+        for (int i = 0; i < 2 * kHalvings; ++i) {
+            const double middle = 0.5 * (free + inside);
+            (plane.phi(path.at(middle)) - radius < 0.0 ? inside : free) = middle;
+        }
+        return free;
     }
     return std::nullopt;
 }
 
-double gapTo(const PlaneField& plane, const Vec3d& p, double radius) { return plane.phi(p) - radius; }
-double gapTo(const std::shared_ptr<const DistanceField>& field, const Vec3d& p, double radius)
+std::optional<double> touchOf(const FieldPtr& field, const RelativePath& path, double radius, const Placement&,
+                              double end)
 {
-    return field->phi(p) - radius;
+    const int pieces = path.pieces(kSagittaVx * field->voxelSize());
+    for (int piece = 0; piece < pieces; ++piece) {
+        const double begin = end * piece / pieces;
+        const double length = end / pieces;
+        if (const auto touch = firstTouch(*field, path.at(begin), path.at(begin + length), radius))
+            return begin + *touch * length;
+    }
+    return std::nullopt;
+}
+
+std::optional<double> touchOf(const DeformingShape& shape, const RelativePath& path, double radius,
+                              const Placement& placement, double end)
+{
+    const DeformingField& field = *shape.field;
+    if (field.empty()) return std::nullopt;
+    const auto gap = [&](double t) {
+        return field.phi(path.at(t), placement.beginShare + t * (placement.endShare - placement.beginShare)) - radius;
+    };
+    const double length = (path.at(end) - path.at(0.0)).norm();
+    if (!(length > 0.0)) return std::nullopt;
+    const double shortest = std::max(kShortestStrideVx * field.voxelSize() / length, 1.0 / kMostStrides);
+    double free = 0.0;
+    for (double t = 0.0;;) {
+        if (gap(t) < 0.0) {
+            for (int i = 0; i < kHalvings; ++i) {
+                const double middle = 0.5 * (free + t);
+                (gap(middle) < 0.0 ? t : free) = middle;
+            }
+            return free;
+        }
+        if (t >= end) return std::nullopt;
+        free = t;
+        t = std::min(end, t + std::max(shortest, end * field.clearance(path.at(t), radius) / length));
+    }
+}
+
+// Whether the way from one place to the other comes as near to the ball's centre as its radius.
+bool meetsBall(const BoundingBall& ball, const Placement& placement, const Vec3d& from, const Vec3d& to, double radius)
+{
+    if (!std::isfinite(ball.radius)) return true;
+    const Vec3d way = to - from;
+    const double squared = way.squaredNorm();
+    const double along = squared > 0.0 ? std::clamp((placement.ballCentre - from).dot(way) / squared, 0.0, 1.0) : 0.0;
+    return (placement.ballCentre - from - along * way).norm() <= ball.radius + radius + placement.reach;
 }
 
 } // namespace
 
-PathHit sweepPath(const ColliderSet& colliders, const Vec3d& from, const Vec3d& to, double radius, double shortestStep)
+PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec3d& to, double radius)
 {
     PathHit result;
     result.position = to;
-    double length = (to - from).norm();
-    if (!(length > 0.0) || !std::isfinite(length)) return result;
-    const Path path{from, (to - from) / length, radius, shortestStep};
+    if (!std::isfinite((to - from).norm())) return result;
     for (std::size_t i = 0; i < colliders.size(); ++i) {
-        std::visit(
-            [&](const auto& shape) {
-                auto bracket = bracketTouch(shape, path, length);
-                if (!bracket) return;
-                for (int k = 0; k < kBisections; ++k) {
-                    const double middle = 0.5 * (bracket->free + bracket->inside);
-                    (gapTo(shape, path.at(middle), radius) < 0.0 ? bracket->inside : bracket->free) = middle;
-                }
-                // Later colliders only matter where they are met sooner.
-                length = bracket->free;
-                result = {true, path.at(length), i};
-            },
-            colliders[i].shape);
+        const Placement& placement = colliders.placement(i);
+        if (!meetsBall(colliders.set().boundingBall(i), placement, from, to, radius)) continue;
+        const RelativePath path(placement, from, to);
+        // Later colliders only matter where they are met sooner.
+        const auto touch =
+            std::visit([&](const auto& shape) { return touchOf(shape, path, radius, placement, result.when); },
+                       colliders[i].shape);
+        if (!touch) continue;
+        result.hit = true;
+        result.when = *touch;
+        result.collider = i;
     }
+    if (!result.hit) return result;
+    const Placement& placement = colliders.placement(result.collider);
+    result.position = from + result.when * (to - from);
+    const double share = placement.beginShare + result.when * (placement.endShare - placement.beginShare);
+    const Pose pose = placement.between(result.when);
+    result.hasNormal =
+        outwardNormal(colliders[result.collider].shape,
+                      placement.moves ? pose.toLocal(result.position) : result.position, share, result.normal);
+    if (result.hasNormal && placement.moves) result.normal = pose.vectorToWorld(result.normal);
     return result;
 }
 

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vdbounce/contact/collider.h"
+#include "vdbounce/contact/placed_colliders.h"
 
 namespace vdbounce {
 
-/// Where along a straight path a particle first touches a collider.
+/// Where along a straight path a particle first touches a collider. World space.
 struct PathHit {
     bool hit = false;
-    Vec3d position; ///< the last known free point before the hit; without one the path's end
+    double when = 1.0; ///< share of the path, 0 to 1
+    Vec3d position;    ///< the last known free place before the hit; without one the path's end
+    Vec3d normal;      ///< of the collider there and then, unit length, outward
+    bool hasNormal = false;
     std::size_t collider = 0;
 };
 
-/// The first point at which a particle that moves from `from` to `to` gets a negative gap.
+/// The first touch of a particle that moves evenly from `from` to `to` while the colliders make their step.
 ///
-/// `from` must be free. Method, for each collider within its box: conservative advancement by the clearance at each
-/// point, which cannot pass a surface, but by at least `shortestStep` (world units), so that a path along a surface
-/// ends; then bisection between the last free point and the first that is not (lecture, slide 15: find a sign change,
-/// then close in on it). A dip into a collider that is shorter than `shortestStep` along the path may be passed over.
-PathHit sweepPath(const ColliderSet& colliders, const Vec3d& from, const Vec3d& to, double radius, double shortestStep);
+/// `from` must be free at the step's beginning. Against each collider whose bounding ball the path meets: the path in
+/// the collider's own frame, where a level set is searched cell by cell (see firstTouch()); a path that curves there,
+/// because the collider turns, in pieces that stay within a twentieth of a voxel of it. Deforming colliders are
+/// searched in strides that cannot pass a surface, but of at least a quarter of a voxel. Method: lecture, slides 11,
+/// 12 and 15.
+PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec3d& to, double radius);
 
 } // namespace vdbounce

@@ -113,6 +113,23 @@ FieldSample DistanceField::cellSampleInBox(const Vec3d& index) const
     });
 }
 
+std::array<double, 8> DistanceField::cellCorners(const Vec3i& voxel) const
+{
+    Cell cell(Vec3d::Zero());
+    cell.voxel = voxel;
+    float copy[64];
+    float constant = 0.0f;
+    const Neighbourhood near = neighbourhood(cell, copy, constant);
+    std::array<double, 8> corners;
+    corners.fill(double(constant));
+    if (near.values == nullptr) return corners;
+    for (int i = 0; i < 8; ++i) {
+        const int place = (i & 1) * near.strideX + (i >> 1 & 1) * near.strideY + (i >> 2 & 1);
+        corners[std::size_t(i)] = double(near.cellValues()[place]);
+    }
+    return corners;
+}
+
 double DistanceField::phi(const Vec3d& world) const
 {
     const Vec3d index = transform_.toIndex(world);
@@ -136,6 +153,13 @@ FieldSample DistanceField::sample(const Vec3d& world) const
     if (!index.allFinite()) return {kNotANumber, Vec3d::Constant(kNotANumber)};
     if (empty()) return {background_, Vec3d::Zero()};
     return sampleOutside(index);
+}
+
+Vec3d DistanceField::slope(const Vec3d& world) const
+{
+    const Vec3d index = transform_.toIndex(world);
+    if (indexBox_.contains(index)) return transform_.gradientToWorld(cellSampleInBox(index).gradient);
+    return sample(world).gradient;
 }
 
 // The part of a world vector that points along the face or edge of the box on which `closest` lies; `offset` leads from

@@ -11,6 +11,7 @@
 #include "vdbounce/field/surface_tree.h"
 #include "vdbounce/io/level_set_grid.h"
 
+#include <array>
 #include <optional>
 
 namespace vdbounce {
@@ -43,6 +44,10 @@ public:
 
     double phi(const Vec3d& world) const;
     FieldSample sample(const Vec3d& world) const;
+
+    /// The derivative of phi as it is interpolated trilinearly, which jumps from cell to cell: unlike the gradient's
+    /// central differences it reaches no further than the 8 voxels around the point. World space.
+    Vec3d slope(const Vec3d& world) const;
 
     /// lower <= true distance <= upper, provided that the grid's voxels hold true distances (active ones that are
     /// clamped to a band do not) and that the surface lies in the grid's box. In the band within a voxel's diagonal of
@@ -84,6 +89,10 @@ public:
 
     /// True when the surface reaches the side of the grid's box, so that what lies outside of it is not known.
     bool clipped() const { return clipped_; }
+
+    /// The values of the 8 voxels around the cell above `voxel`: corner i is (i & 1, i >> 1 & 1, i >> 2 & 1) in x, y,
+    /// z from it.
+    std::array<double, 8> cellCorners(const Vec3i& voxel) const;
 
     /// The voxels as they are laid out for lookup.
     const LeafBlocks& blocks() const { return blocks_; }

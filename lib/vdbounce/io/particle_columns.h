@@ -11,8 +11,34 @@
 namespace vdbounce {
 
 /// The columns of a table of particles, as csv and ply name them.
-enum class ParticleColumn { X, Y, Z, Vx, Vy, Vz, Radius, Mass, Id };
-constexpr std::array<const char*, 9> kParticleColumnNames = {"x", "y", "z", "vx", "vy", "vz", "radius", "mass", "id"};
+enum class ParticleColumn {
+    X,
+    Y,
+    Z,
+    Vx,
+    Vy,
+    Vz,
+    Radius,
+    Mass,
+    Id,
+    Stuck,
+    Rejected,
+    HitTime,
+    HitX,
+    HitY,
+    HitZ,
+    HitNx,
+    HitNy,
+    HitNz,
+    HitVx,
+    HitVy,
+    HitVz,
+    HitCollider,
+    HitCount,
+};
+constexpr std::size_t kParticleColumns = 23;
+
+const char* columnName(ParticleColumn column);
 
 /// Assigns table cells to a particle set column by column. Made from the names of a file's columns in the file's order.
 class ParticleTable {
@@ -32,7 +58,7 @@ private:
     bool has(ParticleColumn column) const { return present_[static_cast<std::size_t>(column)]; }
 
     std::vector<int> columns_;
-    std::array<bool, kParticleColumnNames.size()> present_{};
+    std::array<bool, kParticleColumns> present_{};
 };
 
 /// The columns that hold something in `particles`, in the order of the enumeration.

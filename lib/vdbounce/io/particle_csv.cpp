@@ -73,8 +73,7 @@ void setCell(Particles& particles, std::size_t row, ParticleColumn column, std::
     const auto value = parseDouble(cell);
     if (!value) {
         throw InputError(place,
-                         "'" + std::string(cell.substr(0, 40)) + "' in column " +
-                             kParticleColumnNames[static_cast<std::size_t>(column)] + " is no number",
+                         "'" + std::string(cell.substr(0, 40)) + "' in column " + columnName(column) + " is no number",
                          "correct the cell");
     }
     ParticleTable::set(particles, row, column, *value);
@@ -134,7 +133,7 @@ void writeCsvParticles(const Particles& particles, const std::string& path)
     SafeFile file(path);
     std::string header;
     for (ParticleColumn column : columns) {
-        header += kParticleColumnNames[static_cast<std::size_t>(column)];
+        header += columnName(column);
         header += column == columns.back() ? '\n' : ',';
     }
     file.write(header);

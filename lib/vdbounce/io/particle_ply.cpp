@@ -94,7 +94,7 @@ void writePlyParticles(const Particles& particles, const std::string& path)
     std::string out = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(particles.size()) + "\n";
     for (ParticleColumn column : columns) {
         out += (column == ParticleColumn::Id && intIds) ? "property int " : "property double ";
-        out += std::string(kParticleColumnNames[static_cast<std::size_t>(column)]) + "\n";
+        out += std::string(columnName(column)) + "\n";
     }
     out += "end_header\n";
     out.reserve(out.size() + particles.size() * columns.size() * sizeof(double));

@@ -29,11 +29,20 @@ constexpr const char* kVelocity = "v";
 constexpr const char* kRadius = "pscale";
 constexpr const char* kMass = "mass";
 constexpr const char* kId = "id";
+constexpr const char* kStuck = "stuck";
+constexpr const char* kRejected = "rejected";
+constexpr const char* kHitTime = "hittime";
+constexpr const char* kHitPosition = "hitpos";
+constexpr const char* kHitNormal = "hitnml";
+constexpr const char* kHitVelocity = "hitv";
+constexpr const char* kHitCollider = "hitcollider";
+constexpr const char* kHitCount = "hittotal";
 
 using PositionArray = points::TypedAttributeArray<openvdb::Vec3f, points::NullCodec>;
 using VectorArray = points::TypedAttributeArray<openvdb::Vec3f>;
 using FloatArray = points::TypedAttributeArray<float>;
 using IdArray = points::TypedAttributeArray<std::int64_t>;
+using IntArray = points::TypedAttributeArray<std::int32_t>;
 
 // Where a particle goes in the file: its leaf, its voxel within the leaf, its place in the input.
 struct Slot {
@@ -72,7 +81,16 @@ points::AttributeSet::Descriptor::Ptr describeAttributes(const Particles& partic
     if (!particles.velocity.empty()) descriptor = descriptor->duplicateAppend(kVelocity, VectorArray::attributeType());
     if (!particles.radius.empty()) descriptor = descriptor->duplicateAppend(kRadius, FloatArray::attributeType());
     if (!particles.mass.empty()) descriptor = descriptor->duplicateAppend(kMass, FloatArray::attributeType());
-    return descriptor->duplicateAppend(kId, IdArray::attributeType());
+    descriptor = descriptor->duplicateAppend(kId, IdArray::attributeType());
+    if (!particles.stuckTo.empty()) descriptor = descriptor->duplicateAppend(kStuck, IntArray::attributeType());
+    if (!particles.rejected.empty()) descriptor = descriptor->duplicateAppend(kRejected, IntArray::attributeType());
+    if (particles.hits.empty()) return descriptor;
+    descriptor = descriptor->duplicateAppend(kHitTime, FloatArray::attributeType());
+    for (const char* name : {kHitPosition, kHitNormal, kHitVelocity})
+        descriptor = descriptor->duplicateAppend(name, VectorArray::attributeType());
+    for (const char* name : {kHitCollider, kHitCount})
+        descriptor = descriptor->duplicateAppend(name, IntArray::attributeType());
+    return descriptor;
 }
 
 openvdb::Vec3f toVec3f(const Vec3d& v) { return openvdb::Vec3f(float(v.x()), float(v.y()), float(v.z())); }
@@ -95,6 +113,25 @@ void setVoxelOffsets(Leaf& leaf, const Slot* slots, std::size_t count)
         offsets[voxel] = Leaf::ValueType(static_cast<std::uint32_t>(next));
     }
     leaf.setOffsets(offsets);
+}
+
+void fillOutcome(Leaf& leaf, const Slot* slots, std::size_t count, const Particles& particles)
+{
+    if (!particles.stuckTo.empty()) {
+        fill<IntArray>(leaf, kStuck, slots, count, [&](const Slot& s) { return particles.stuckTo[s.particle]; });
+    }
+    if (!particles.rejected.empty()) {
+        fill<IntArray>(leaf, kRejected, slots, count,
+                       [&](const Slot& s) { return std::int32_t(particles.rejected[s.particle]); });
+    }
+    if (particles.hits.empty()) return;
+    const auto hit = [&](const Slot& s) -> const HitRecord& { return particles.hits[s.particle]; };
+    fill<FloatArray>(leaf, kHitTime, slots, count, [&](const Slot& s) { return float(hit(s).time); });
+    fill<VectorArray>(leaf, kHitPosition, slots, count, [&](const Slot& s) { return toVec3f(hit(s).position); });
+    fill<VectorArray>(leaf, kHitNormal, slots, count, [&](const Slot& s) { return toVec3f(hit(s).normal); });
+    fill<VectorArray>(leaf, kHitVelocity, slots, count, [&](const Slot& s) { return toVec3f(hit(s).velocity); });
+    fill<IntArray>(leaf, kHitCollider, slots, count, [&](const Slot& s) { return hit(s).collider; });
+    fill<IntArray>(leaf, kHitCount, slots, count, [&](const Slot& s) { return hit(s).count; });
 }
 
 void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descriptor, const Slot* slots, std::size_t count,
@@ -120,6 +157,7 @@ void fillLeaf(Leaf& leaf, const points::AttributeSet::Descriptor::Ptr& descripto
         fill<FloatArray>(leaf, kMass, slots, count, [&](const Slot& s) { return float(particles.mass[s.particle]); });
     }
     fill<IdArray>(leaf, kId, slots, count, [&](const Slot& s) { return particles.id[s.particle]; });
+    fillOutcome(leaf, slots, count, particles);
 }
 
 Grid::Ptr findPoints(openvdb::io::File& file, const std::string& path)
@@ -156,6 +194,21 @@ void readPositions(const Leaf& leaf, const Grid& grid, Vec3d* positions)
     }
 }
 
+void readOutcome(const Leaf& leaf, std::size_t begin, Particles& particles)
+{
+    if (!particles.stuckTo.empty())
+        read<std::int32_t>(leaf, kStuck,
+                           [&](std::size_t i, std::int32_t value) { particles.stuckTo[begin + i] = value; });
+    if (particles.hits.empty()) return;
+    HitRecord* hits = particles.hits.data() + begin;
+    read<float>(leaf, kHitTime, [&](std::size_t i, float value) { hits[i].time = double(value); });
+    read<openvdb::Vec3f>(leaf, kHitPosition, [&](std::size_t i, const auto& v) { hits[i].position = toVec3d(v); });
+    read<openvdb::Vec3f>(leaf, kHitNormal, [&](std::size_t i, const auto& v) { hits[i].normal = toVec3d(v); });
+    read<openvdb::Vec3f>(leaf, kHitVelocity, [&](std::size_t i, const auto& v) { hits[i].velocity = toVec3d(v); });
+    read<std::int32_t>(leaf, kHitCollider, [&](std::size_t i, std::int32_t value) { hits[i].collider = value; });
+    read<std::int32_t>(leaf, kHitCount, [&](std::size_t i, std::int32_t value) { hits[i].count = value; });
+}
+
 void readLeaf(const Leaf& leaf, const Grid& grid, std::size_t begin, Particles& particles)
 {
     readPositions(leaf, grid, particles.position.data() + begin);
@@ -172,6 +225,7 @@ void readLeaf(const Leaf& leaf, const Grid& grid, std::size_t begin, Particles& 
     readScalar(kMass, particles.mass);
     const auto putId = [&](std::size_t i, auto value) { particles.id[begin + i] = std::int64_t(value); };
     if (!read<std::int64_t>(leaf, kId, putId)) read<std::int32_t>(leaf, kId, putId);
+    readOutcome(leaf, begin, particles);
 }
 
 } // namespace
@@ -196,6 +250,8 @@ Particles readVdbParticles(const std::string& path)
     if (has(kVelocity)) particles.velocity.resize(count, Vec3d::Zero());
     if (has(kRadius)) particles.radius.resize(count);
     if (has(kMass)) particles.mass.resize(count);
+    if (has(kStuck)) particles.stuckTo.resize(count, -1);
+    if (has(kHitCount)) particles.hits.resize(count);
     forEachIndex(leaves.size(), 16, [&](std::size_t i) { readLeaf(*leaves[i], *grid, begins[i], particles); });
     return particles;
 }

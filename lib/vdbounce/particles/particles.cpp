@@ -23,6 +23,9 @@ void Particles::resize(std::size_t count)
     if (!velocity.empty()) velocity.resize(count, Vec3d::Zero());
     if (!radius.empty()) radius.resize(count, 0.0);
     if (!mass.empty()) mass.resize(count, 1.0);
+    if (!hits.empty()) hits.resize(count);
+    if (!stuckTo.empty()) stuckTo.resize(count, -1);
+    if (!rejected.empty()) rejected.resize(count, 0);
     id.resize(count);
     for (std::size_t i = before; i < count; ++i) id[i] = static_cast<std::int64_t>(i);
 }
@@ -56,6 +59,11 @@ std::vector<std::size_t> orderById(const Particles& particles)
     return order;
 }
 
+void keepOnly(Particles& particles, const std::vector<std::size_t>& order)
+{
+    if (order.size() != particles.size()) particles = reordered(particles, order);
+}
+
 Particles reordered(const Particles& particles, const std::vector<std::size_t>& order)
 {
     Particles result;
@@ -64,6 +72,9 @@ Particles reordered(const Particles& particles, const std::vector<std::size_t>& 
     gather(particles.radius, order, result.radius);
     gather(particles.mass, order, result.mass);
     gather(particles.id, order, result.id);
+    gather(particles.hits, order, result.hits);
+    gather(particles.stuckTo, order, result.stuckTo);
+    gather(particles.rejected, order, result.rejected);
     return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/box.h"
 #include "vdbounce/base/vector.h"
+#include "vdbounce/particles/hit_record.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,11 @@ struct Particles {
     std::vector<double> mass;     ///< > 0
     std::vector<std::int64_t> id; ///< kept through everything; the position in the input where the file has none
 
+    std::vector<HitRecord> hits;       ///< of collisions, where they are asked for
+    std::vector<std::int32_t> stuckTo; ///< the collider that it moves along with, by its place in the scene; -1: none
+    std::vector<std::uint8_t>
+        rejected; ///< 1: kept as it came, because it is not finite or has a negative radius or mass
+
     std::size_t size() const { return position.size(); }
     bool empty() const { return position.empty(); }
 
@@ -36,6 +42,9 @@ void numberInOrder(Particles& particles);
 
 /// The box around all particles with finite positions; empty where there are none.
 Box boundingBox(const Particles& particles);
+
+/// The particles at `order` (ascending), in place.
+void keepOnly(Particles& particles, const std::vector<std::size_t>& order);
 
 /// The particle indices in ascending order of id; equal ids keep their order.
 std::vector<std::size_t> orderById(const Particles& particles);

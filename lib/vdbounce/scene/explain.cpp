@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/scene/run.h"
-#include "vdbounce/scene/scene_load.h"
+#include "vdbounce/scene/scene_colliders.h"
 
 namespace vdbounce {
 namespace {
@@ -20,6 +20,13 @@ std::string describeShape(const std::shared_ptr<const DistanceField>& field)
            (field->clipped() ? ", cut off by its box" : "");
 }
 
+std::string describeShape(const DeformingShape& shape)
+{
+    const DistanceField& first = shape.field->from();
+    return "deforming level sets, the first of " + std::to_string(first.blocks().blockCount()) + " leaves, voxel " +
+           numberText(first.voxelSize()) + ", band " + numberText(first.background());
+}
+
 std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
 {
     switch (scene.sweep) {
@@ -27,8 +34,42 @@ std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
     case Sweep::Never: return "sweep: left out (never); fast particles may pass through thin walls";
     case Sweep::Auto: break;
     }
-    return "sweep: only for steps longer than " + numberText(colliders.smallestVoxel()) +
+    return "sweep: only for steps longer than " + numberText(0.5 * colliders.smallestVoxel()) +
            " that may touch something on the way";
+}
+
+std::string describeScheme(const Scene& scene)
+{
+    switch (scene.scheme) {
+    case Scheme::Once: return "scheme: once, a response to what penetrates at the end of a step";
+    case Scheme::Iterate: return "scheme: iterate, responses until nothing penetrates";
+    case Scheme::CollideContact: break;
+    }
+    return "scheme: collide-contact, up to " + std::to_string(scene.maxBounces) + " bounces a step";
+}
+
+std::string describeLookups(const Scene& scene, const ColliderSet& colliders)
+{
+    std::string text = "lookups: none for a particle whose clearance exceeds its step";
+    if (!colliders.still()) text += " and what the colliders move";
+    if (scene.repulsionRange.value > 0.0) text += " and the range of repulsion";
+    return text + "; gradients only for those that touch" +
+           (scene.repulsionRange.value > 0.0 ? " or are in range" : "");
+}
+
+std::string describeOmissions(const Scene& scene, const ColliderSet& colliders)
+{
+    std::string text;
+    const auto leaveOut = [&](bool out, const char* what) {
+        if (out) text += (text.empty() ? "left out: " : ", ") + std::string(what);
+    };
+    leaveOut(colliders.still(), "collider velocities (none moves)");
+    leaveOut(!colliders.anyFree(), "moving colliders by particles (none has a mass)");
+    leaveOut(!scene.interact, "particle against particle (not asked for)");
+    leaveOut(!(scene.repulsionRange.value > 0.0), "repulsion (no range)");
+    leaveOut(!scene.hits, "records of hits (not asked for)");
+    leaveOut(true, "reordering");
+    return text;
 }
 
 } // namespace
@@ -36,7 +77,7 @@ std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
 std::vector<std::string> explainScene(const Scene& scene)
 {
     validate(scene);
-    const ColliderSet colliders = loadColliders(scene);
+    const ColliderSet colliders = SceneColliders(scene).onTheWayTo(0);
     const ParticleDefaults defaults = particleDefaults(scene, colliders);
     std::vector<std::string> lines;
     lines.push_back("time: " + std::to_string(scene.frames) + " frames of " + std::to_string(scene.stepsPerFrame) +
@@ -50,12 +91,10 @@ std::vector<std::string> explainScene(const Scene& scene)
                         ", restitution " + numberText(collider.restitution) + ", friction " +
                         numberText(collider.friction));
     }
-    lines.push_back("scheme: collide-contact, up to " + std::to_string(scene.maxBounces) + " bounces a step");
+    lines.push_back(describeScheme(scene));
     lines.push_back(describeSweep(scene, colliders));
-    lines.emplace_back(
-        "lookups: none for a particle whose clearance exceeds its step; gradients only for those that touch");
-    lines.emplace_back(
-        "left out: collider velocities (none moves), particle against particle (not asked for), reordering");
+    lines.push_back(describeLookups(scene, colliders));
+    lines.push_back(describeOmissions(scene, colliders));
     return lines;
 }
 

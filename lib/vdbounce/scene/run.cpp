@@ -4,23 +4,13 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/io/particle_file.h"
-#include "vdbounce/scene/scene_load.h"
+#include "vdbounce/scene/scene_colliders.h"
 
 #include <chrono>
 #include <filesystem>
 
 namespace vdbounce {
 namespace {
-
-StepOptions stepOptions(const Scene& scene)
-{
-    StepOptions options;
-    options.dt = scene.dt;
-    options.gravity = scene.gravity;
-    options.maxBounces = scene.maxBounces;
-    options.sweep = scene.sweep;
-    return options;
-}
 
 std::string startFile(const Scene& scene, int firstFrame)
 {
@@ -43,7 +33,11 @@ bool isWritten(const Scene& scene, int frame, int lastFrame)
 void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
 {
     std::vector<std::string> inputs = {scene.particleFile};
-    for (const ColliderSpec& collider : scene.colliders) inputs.push_back(collider.file);
+    for (const ColliderSpec& collider : scene.colliders) {
+        inputs.push_back(collider.file);
+        for (int frame = 0; !collider.sequence.empty() && frame <= lastFrame; ++frame)
+            inputs.push_back(framePath(collider.sequence, frame));
+    }
     for (int frame = firstFrame == 0 ? 0 : firstFrame + 1; frame <= lastFrame; ++frame) {
         if (!isWritten(scene, frame, lastFrame)) continue;
         const std::string output = framePath(scene.outputFile, frame);
@@ -68,12 +62,12 @@ class Run {
 public:
     Run(const Scene& scene, const RunOptions& options, RunProgress& progress)
         : scene_(scene), options_(options), progress_(progress),
-          lastFrame_(options.lastFrame < 0 ? scene.frames : options.lastFrame), colliders_(loadColliders(scene)),
-          defaults_(particleDefaults(scene, colliders_)),
+          lastFrame_(options.lastFrame < 0 ? scene.frames : options.lastFrame), loader_(scene),
+          colliders_(loader_.onTheWayTo(options.firstFrame)), defaults_(particleDefaults(scene, colliders_)),
           particles_(readParticles(startFile(scene, options.firstFrame)))
     {
         requireBandsForRadius(scene_, colliders_, particles_, defaults_);
-        particles_.ensureVelocity();
+        requireRestart();
         report_.particles = particles_.size();
         report_.tally = StepTally(colliders_.size());
         report_.energyInitial = totalEnergy(particles_, defaults_, scene_.gravity);
@@ -82,9 +76,20 @@ public:
 
     RunReport run()
     {
+        PassOptions options;
+        options.step = stepOptions(scene_, colliders_);
+        options.defaults = defaults_;
+        options.hits = scene_.hits;
+        options.interact = scene_.interact;
+        options.firstStep = std::uint64_t(options_.firstFrame) * std::uint64_t(scene_.stepsPerFrame);
+        ParticlePass pass(particles_, colliders_, options);
         if (options_.firstFrame == 0) writeFrame(0);
         for (int frame = options_.firstFrame + 1; frame <= lastFrame_; ++frame) {
-            advance(frame);
+            if (loader_.deforming()) {
+                colliders_ = loader_.onTheWayTo(frame);
+                pass.setColliders(colliders_);
+            }
+            advance(pass, frame);
             writeFrame(frame);
         }
         report_.energyFinal = totalEnergy(particles_, defaults_, scene_.gravity);
@@ -92,18 +97,28 @@ public:
     }
 
 private:
-    void advance(int frame)
+    // Frames hold particles only.
+    void requireRestart() const
+    {
+        if (options_.firstFrame == 0 || !colliders_.anyFree()) return;
+        throw UsageError("--frames " + std::to_string(options_.firstFrame) + "-",
+                         "a collider has a mass, and where it was then is in no file", "start at frame 0");
+    }
+
+    void advance(ParticlePass& pass, int frame)
     {
         const auto begin = std::chrono::steady_clock::now();
-        const PassReport pass =
-            advanceParticles(particles_, colliders_, stepOptions(scene_), defaults_, scene_.stepsPerFrame, progress_);
+        const std::uint64_t count = particles_.size();
+        const PassReport done = pass.advance(scene_.stepsPerFrame, progress_);
         report_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        if (options_.strict) requireSteppable(pass, scene_);
-        report_.tally += pass.tally;
-        report_.rejected = pass.rejected;
+        if (options_.strict) requireSteppable(done, scene_);
+        report_.tally += done.tally;
+        report_.rejected = done.rejected;
+        report_.deleted += done.deleted;
         report_.steps += static_cast<std::uint64_t>(scene_.stepsPerFrame);
+        report_.particleSteps += count * static_cast<std::uint64_t>(scene_.stepsPerFrame);
         ++report_.frames;
-        progress_.frameDone(frame, lastFrame_, report_.steps * report_.particles);
+        progress_.frameDone(frame, lastFrame_, report_.particleSteps);
     }
 
     void writeFrame(int frame)
@@ -119,7 +134,8 @@ private:
     const RunOptions& options_;
     RunProgress& progress_;
     const int lastFrame_;
-    const ColliderSet colliders_;
+    SceneColliders loader_;
+    ColliderSet colliders_;
     const ParticleDefaults defaults_;
     Particles particles_;
     RunReport report_;

@@ -31,12 +31,14 @@ struct RunReport {
     double seconds = 0.0; ///< of stepping, reading and writing apart
     StepTally tally;
     std::uint64_t rejected = 0;
+    std::uint64_t deleted = 0;
     double energyInitial = 0.0;
     double energyFinal = 0.0;
     std::vector<std::string> colliderNames; ///< in the order of tally.impulse
     std::vector<std::string> files;         ///< written
+    std::uint64_t particleSteps = 0;        ///< taken; fewer than particles times steps where some were deleted
 
-    double particleStepsPerSecond() const { return seconds > 0.0 ? double(particles) * double(steps) / seconds : 0.0; }
+    double particleStepsPerSecond() const { return seconds > 0.0 ? double(particleSteps) / seconds : 0.0; }
 };
 
 /// Runs a scene from its particle file to its last frame, writing frames as the scene says. Every file is written whole

@@ -25,6 +25,13 @@ void checkCollider(const ColliderSpec& collider, const std::string& path, Checke
                     collider.restitution, "give 0 to 1");
     checker.require(collider.friction >= 0.0 && std::isfinite(collider.friction), path + ".friction", collider.friction,
                     "give 0 or more");
+    if (collider.body) {
+        checker.require(collider.body->mass > 0.0 && std::isfinite(collider.body->mass), path + ".mass",
+                        collider.body->mass, "give a positive mass");
+        const Vec3d inertia = collider.body->inertia.value_or(Vec3d::Ones());
+        checker.require((inertia.array() > 0.0).all() && inertia.allFinite(), path + ".inertia", inertia.minCoeff(),
+                        "give three positive moments");
+    }
     if (!collider.plane) return;
     const double length = collider.plane->normal.norm();
     checker.require(length > 0.0 && std::isfinite(length), path + ".plane.normal", length,
@@ -56,6 +63,10 @@ std::optional<SceneFault> findFault(const Scene& scene)
     checker.require(scene.mass > 0.0 && std::isfinite(scene.mass), "particles.mass", scene.mass,
                     "give a positive mass");
     checker.require(scene.maxBounces >= 0, "contact.max_bounces", scene.maxBounces, "give 0 or more");
+    checker.require(scene.repulsionRange.value >= 0.0 && std::isfinite(scene.repulsionRange.value),
+                    "contact.repulsion.range", scene.repulsionRange.value, "give 0 or more");
+    checker.require(scene.repulsionStrength >= 0.0 && std::isfinite(scene.repulsionStrength),
+                    "contact.repulsion.strength", scene.repulsionStrength, "give 0 or more");
     checker.require(scene.every >= 1, "output.every", scene.every, "give 1 or more");
     for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
         checkCollider(scene.colliders[i], "collider[" + std::to_string(i) + "]", checker);

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/length.h"
 #include "vdbounce/base/vector.h"
+#include "vdbounce/contact/motion.h"
 #include "vdbounce/contact/step.h"
 
 #include <optional>
@@ -11,18 +12,31 @@
 
 namespace vdbounce {
 
-/// One `[[collider]]` of a scene: a level-set file or an analytic shape, and how it answers.
+/// One `[[collider]]` of a scene: a level-set file, a sequence of them or an analytic shape, and how it answers.
 struct ColliderSpec {
     struct Plane {
         Vec3d point = Vec3d::Zero();
         Vec3d normal = Vec3d(0.0, 1.0, 0.0); ///< points out; any length but 0
     };
+    /// Of a collider that particles move. What is left out is that of a body of even density.
+    struct Body {
+        double mass = 1.0;            ///< > 0
+        std::optional<Vec3d> centre;  ///< of mass, world units, as in the file
+        std::optional<Vec3d> inertia; ///< principal moments about the centre, along the axes as in the file; > 0
+    };
 
     std::string name;
-    std::string file; ///< a level set; empty when `plane` is set
+    // Exactly one of these three.
+    std::string file;     ///< a level set
+    std::string sequence; ///< a level set a frame, #### for the frame; interpolated in between
     std::optional<Plane> plane;
+
     double restitution = 0.3; ///< 0 to 1
     double friction = 0.5;    ///< >= 0
+    OnHit onHit = OnHit::Bounce;
+    /// None, constant or through keys. With `body` none or constant: the velocities at the start.
+    Motion motion;
+    std::optional<Body> body; ///< present: it moves by gravity and by what hits it
 };
 
 /// A scene as its file states it, paths resolved. The defaults are those of the scene file.
@@ -36,14 +50,19 @@ struct Scene {
     Length radius;     ///< where the file carries none; in voxels: of the finest level set
     double mass = 1.0; ///< where the file carries none
 
+    Scheme scheme = Scheme::CollideContact;
     int maxBounces = 3;
     Sweep sweep = Sweep::Auto;
+    Length repulsionRange;          ///< in voxels: of the finest level set
+    double repulsionStrength = 0.0; ///< world units / s^2, >= 0
+    bool interact = false;          ///< particles collide with each other
 
     std::vector<ColliderSpec> colliders;
 
     std::string outputFile; ///< with #### for the frame: every `every`-th frame and the last; without: the last only;
                             ///< empty: none
     int every = 1;          ///< >= 1
+    bool hits = false;      ///< write what is known of each particle's last collision
 };
 
 /// A value that is out of range, and where it stands in the scene file: "time.dt", "collider[0].friction".

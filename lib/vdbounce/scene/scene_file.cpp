@@ -4,6 +4,7 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/io/file_bytes.h"
 #include "vdbounce/io/number_text.h"
+#include "vdbounce/scene/collider_table.h"
 #include "vdbounce/scene/scene_overrides.h"
 #include "vdbounce/scene/scene_table.h"
 
@@ -12,12 +13,6 @@
 
 namespace vdbounce {
 namespace {
-
-std::string resolved(const std::string& sceneFile, const std::string& path)
-{
-    if (path.empty() || std::filesystem::path(path).is_absolute()) return path;
-    return (std::filesystem::path(sceneFile).parent_path() / path).string();
-}
 
 void readTime(SceneTable table, Scene& scene)
 {
@@ -35,31 +30,24 @@ void readWorld(SceneTable table, Scene& scene)
 
 void readParticles(SceneTable table, const std::string& sceneFile, Scene& scene)
 {
-    scene.particleFile = resolved(sceneFile, table.text("file", ""));
+    scene.particleFile = resolvedPath(sceneFile, table.text("file", ""));
     if (scene.particleFile.empty()) table.fail("file", "is missing", "name the particle file, file = \"cloud.vdb\"");
     scene.radius = table.length("radius", scene.radius);
     scene.mass = table.number("mass", scene.mass);
-    if (table.boolean("interact", false)) {
-        table.fail("interact", "= true is not supported by this version",
-                   "remove it; particles then pass through each other");
-    }
+    scene.interact = table.boolean("interact", scene.interact);
     table.finish();
 }
 
 void readContact(SceneTable table, Scene& scene)
 {
-    const std::vector<std::string> schemes = {"collide-contact", "once", "iterate"};
-    if (table.choice("scheme", schemes, 0) != 0) {
-        table.fail("scheme", "is not supported by this version", "use \"collide-contact\"");
-    }
+    const Scheme schemes[] = {Scheme::CollideContact, Scheme::Once, Scheme::Iterate};
+    scene.scheme = schemes[table.choice("scheme", {"collide-contact", "once", "iterate"}, 0)];
     scene.maxBounces = table.integer("max_bounces", scene.maxBounces);
     const Sweep sweeps[] = {Sweep::Auto, Sweep::Always, Sweep::Never};
     scene.sweep = sweeps[table.choice("sweep", {"auto", "always", "never"}, 0)];
     SceneTable repulsion = table.table("repulsion");
-    if (repulsion.number("range", 0.0) != 0.0) {
-        repulsion.fail("range", "is not supported by this version", "set it to 0");
-    }
-    repulsion.number("strength", 0.0);
+    scene.repulsionRange = repulsion.length("range", scene.repulsionRange);
+    scene.repulsionStrength = repulsion.number("strength", scene.repulsionStrength);
     repulsion.finish();
     table.finish();
 }
@@ -76,39 +64,6 @@ void readAccuracy(SceneTable table)
     onlyFirst("storage", {"float", "half", "fixed8"});
     table.refuseForNow("max_error", "remove it");
     table.finish();
-}
-
-ColliderSpec::Plane readPlane(SceneTable table)
-{
-    ColliderSpec::Plane plane;
-    plane.point = table.vector("point", plane.point);
-    plane.normal = table.vector("normal", plane.normal);
-    table.finish();
-    return plane;
-}
-
-ColliderSpec readCollider(SceneTable table, const std::string& sceneFile, const std::string& name)
-{
-    ColliderSpec collider;
-    collider.name = name;
-    table.text("name", name);
-    collider.file = resolved(sceneFile, table.text("file", ""));
-    if (table.has("plane")) collider.plane = readPlane(table.table("plane"));
-    for (const char* key :
-         {"sequence", "sphere", "box", "capsule", "cylinder", "torus", "heightfield", "csg", "motion"}) {
-        table.refuseForNow(key, "use a level-set file or a plane that does not move");
-    }
-    collider.restitution = table.number("restitution", collider.restitution);
-    collider.friction = table.number("friction", collider.friction);
-    if (table.choice("on_hit", {"bounce", "stick", "delete"}, 0) != 0) {
-        table.fail("on_hit", "is not supported by this version", "use \"bounce\"");
-    }
-    if (collider.file.empty() == !collider.plane.has_value()) {
-        table.fail("file", "and plane: exactly one is needed",
-                   "give file = \"shape.vdb\" or plane = { point, normal }");
-    }
-    table.finish();
-    return collider;
 }
 
 void readColliders(const toml::table& root, const std::string& sceneFile, Scene& scene)
@@ -135,8 +90,9 @@ void readColliders(const toml::table& root, const std::string& sceneFile, Scene&
 
 void readOutput(SceneTable table, const std::string& sceneFile, Scene& scene)
 {
-    scene.outputFile = resolved(sceneFile, table.text("file", ""));
+    scene.outputFile = resolvedPath(sceneFile, table.text("file", ""));
     scene.every = table.integer("every", scene.every);
+    scene.hits = table.boolean("hits", scene.hits);
     table.finish();
 }
 

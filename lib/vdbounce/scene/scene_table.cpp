@@ -94,19 +94,34 @@ std::string SceneTable::text(const char* key, const std::string& otherwise)
     return *node->value<std::string>();
 }
 
+void SceneTable::readNumbers(const toml::node& node, const char* key, double* numbers, std::size_t count,
+                             const char* expected) const
+{
+    const toml::array* array = node.as_array();
+    if (array == nullptr || array->size() != count) failType(key, expected);
+    for (std::size_t i = 0; i < count; ++i) {
+        const toml::node& entry = (*array)[i];
+        if (!entry.is_number()) failType(key, expected);
+        numbers[i] = *entry.value<double>();
+    }
+}
+
 Vec3d SceneTable::vector(const char* key, const Vec3d& otherwise)
 {
     const toml::node* node = find(key);
     if (node == nullptr) return otherwise;
-    const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() != 3) failType(key, "a list of three numbers");
     Vec3d vector;
-    for (int axis = 0; axis < 3; ++axis) {
-        const toml::node& entry = (*array)[static_cast<std::size_t>(axis)];
-        if (!entry.is_number()) failType(key, "a list of three numbers");
-        vector[axis] = *entry.value<double>();
-    }
+    readNumbers(*node, key, vector.data(), 3, "a list of three numbers");
     return vector;
+}
+
+Eigen::Quaterniond SceneTable::quaternion(const char* key, const Eigen::Quaterniond& otherwise)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) return otherwise;
+    double wxyz[4];
+    readNumbers(*node, key, wxyz, 4, "a list of four numbers, w, x, y, z");
+    return Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
 }
 
 Length SceneTable::length(const char* key, const Length& otherwise)
@@ -139,6 +154,21 @@ SceneTable SceneTable::table(const char* key)
     const toml::table* inner = node->as_table();
     if (inner == nullptr) failType(key, "a table");
     return SceneTable(file_, full, *inner);
+}
+
+std::vector<SceneTable> SceneTable::tables(const char* key)
+{
+    const toml::node* node = find(key);
+    std::vector<SceneTable> tables;
+    if (node == nullptr) return tables;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) failType(key, "a list of tables");
+    for (std::size_t i = 0; i < array->size(); ++i) {
+        const toml::table* entry = (*array)[i].as_table();
+        if (entry == nullptr) failType(key, "a list of tables");
+        tables.emplace_back(file_, (name_.empty() ? "" : name_ + ".") + key + "[" + std::to_string(i) + "]", *entry);
+    }
+    return tables;
 }
 
 void SceneTable::refuseForNow(const char* key, const std::string& remedy)

@@ -4,6 +4,7 @@
 #include "vdbounce/base/length.h"
 #include "vdbounce/base/vector.h"
 
+#include <Eigen/Geometry>
 #include <toml++/toml.h>
 
 #include <string>
@@ -26,11 +27,16 @@ public:
     bool boolean(const char* key, bool otherwise);
     std::string text(const char* key, const std::string& otherwise);
     Vec3d vector(const char* key, const Vec3d& otherwise);
+    /// Four numbers, w x y z.
+    Eigen::Quaterniond quaternion(const char* key, const Eigen::Quaterniond& otherwise);
     Length length(const char* key, const Length& otherwise);
     /// One of `choices`; returns its position.
     std::size_t choice(const char* key, const std::vector<std::string>& choices, std::size_t otherwise);
     /// A table within this one; an empty one where the key is left out.
     SceneTable table(const char* key);
+
+    /// A list of tables within this one.
+    std::vector<SceneTable> tables(const char* key);
 
     /// Refuses a key that a later version will know.
     void refuseForNow(const char* key, const std::string& remedy);
@@ -46,6 +52,8 @@ public:
 
 private:
     const toml::node* find(const char* key);
+    void readNumbers(const toml::node& node, const char* key, double* numbers, std::size_t count,
+                     const char* expected) const;
     [[noreturn]] void failType(const char* key, const char* expected) const;
     std::string place(const toml::node* node) const;
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/contact/step.h"
+#include "vdbounce/contact/sweep.h"
+
+#include <vector>
+
+/// @file
+/// One particle's step while it is worked on: what the lecture's schemes are made of. For schemes.cpp, recovery.cpp and
+/// step.cpp only.
+
+namespace vdbounce {
+
+/// A collider that the candidate, or the way to it, touches.
+struct Touch {
+    bool touching = false;
+    bool hasNormal = false;
+    std::size_t collider = 0;
+    Vec3d normal;
+    Vec3d centre;       // the particle's, where it touches
+    double depth = 0.0; // at the end of the path; 0 where only the way there touched
+    double when = 1.0;  // share of the step
+};
+
+class ParticleStep {
+public:
+    ParticleStep(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options,
+                 StepTally& tally);
+
+    // State, open to the schemes.
+    MovingParticle& particle;
+    const PlacedColliders& colliders;
+    const StepOptions& options;
+    StepTally& tally;
+    const Vec3d start;
+    Vec3d velocity; // at the start of the step, after the collisions so far
+    Vec3d endVelocity;
+    Vec3d candidate;
+    Probe probe; // what surrounds the candidate
+
+    /// The candidate that follows from `velocity`.
+    void integrate();
+
+    /// Whether the candidate, or the way to it, touches a collider. Updates `probe`.
+    Touch look();
+
+    /// `probe` of the candidate; true when it penetrates.
+    bool penetrates();
+
+    Vec3d averageVelocity() const { return (candidate - start) / options.dt; }
+
+    /// A velocity after a collision with what is touched, relative to the surface at the end of the step. The collider
+    /// takes the opposite impulse.
+    Vec3d collided(const Vec3d& before, const Touch& touch, double restitution);
+
+    /// The average velocity of the whole step after contact, relative to how the surface is carried. No impulse: that
+    /// is the end velocity's.
+    Vec3d slid(const Vec3d& average, const Touch& touch, double restitution) const;
+
+    /// Average velocity of the collider's point that is where the particle began.
+    Vec3d drift(std::size_t collider) const;
+
+    /// The particle's velocity changed by `change` through this collider, which takes, at the point `at`, the opposite
+    /// impulse.
+    void react(std::size_t collider, const Vec3d& at, const Vec3d& change);
+
+    /// The point of the surface that is touched.
+    Vec3d contactPoint(const Touch& touch) const;
+
+    /// The candidate's speed must pay for the height it was moved by, where nothing that moves can have given it. False
+    /// when it cannot.
+    bool paysForItsHeight(std::size_t collider);
+
+    /// Back to where it was relative to the collider, and no faster than it.
+    void stop(std::size_t collider);
+
+    /// Stops what began outside and could not be brought out again, and counts it.
+    void hold(std::size_t collider);
+
+    /// The length on which walls are told apart; planes alone have none, and any will do.
+    double shortLength() const;
+
+    /// How far to move out what is `depth` inside.
+    double pushOut(double depth) const;
+
+    /// Writes position and velocity back.
+    void accept();
+
+    /// Writes the hit down where hits are asked for; the first of a contact that lasts.
+    void record(const Touch& touch);
+
+private:
+    bool mayHaveTouchedOnTheWay() const;
+
+    struct BodyChange {
+        Vec3d linear = Vec3d::Zero();
+        Vec3d angular = Vec3d::Zero();
+    };
+    Vec3d surfaceVelocity(std::size_t collider, const Vec3d& at) const;
+
+    bool swept_ = false;
+    std::vector<BodyChange> bodyChanges_; // of free bodies, by this particle's impulses in this step
+};
+
+/// The lecture's schemes, for a particle that began outside and touches: they leave candidate and endVelocity resolved.
+void collideContact(ParticleStep& step, Touch touch);
+void iterate(ParticleStep& step, Touch touch);
+void once(ParticleStep& step, const Touch& touch);
+
+/// For a particle that began inside: moves it out by a share of its depth, inelastically.
+void recover(ParticleStep& step);
+/// The same by an impulse in proportion to the depth, with friction (slide 3).
+void repel(ParticleStep& step);
+
+/// The force within a range of the surface, on the velocity at the start of the step. `near` is what surrounds the
+/// particle there.
+void applyRepulsion(ParticleStep& step);
+
+} // namespace vdbounce

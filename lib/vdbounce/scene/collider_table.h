@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/scene/scene.h"
+#include "vdbounce/scene/scene_table.h"
+
+#include <string>
+
+namespace vdbounce {
+
+/// Reads one [[collider]]. Throws InputError as SceneTable does.
+ColliderSpec readCollider(SceneTable table, const std::string& sceneFile, const std::string& name);
+
+/// A path as a scene file has it, which starts at the file's folder.
+std::string resolvedPath(const std::string& sceneFile, const std::string& path);
+
+} // namespace vdbounce
