@@ -9,9 +9,6 @@
 namespace vdbounce {
 namespace {
 
-// Particles a task: some tenths of a millisecond of work, and few enough that a thousand tasks share out evenly.
-constexpr std::size_t kParticlesPerBlock = 1024;
-
 MovingParticle fromArrays(const Particles& particles, std::size_t i, const ParticleDefaults& defaults)
 {
     MovingParticle particle;
@@ -53,6 +50,7 @@ ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, c
         if (particles_.rejected.empty()) particles_.rejected.assign(particles_.size(), 0);
         particles_.rejected[i] = 1;
     }
+    if (options_.interact) gatherSpheres();
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         bodies_.push_back(colliders[i].body ? std::optional<RigidBody>(*colliders[i].body) : std::nullopt);
     }
@@ -133,75 +131,6 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
     });
 }
 
-// How many particles would push each body in this step: each then meets that share of its mass.
-void ParticlePass::shareBodies(PlacedColliders& placed)
-{
-    using Counts = std::vector<std::uint64_t>;
-    struct Sum {
-        Counts counts;
-        Sum& operator+=(const Sum& other)
-        {
-            for (std::size_t i = 0; i < counts.size(); ++i) counts[i] += other.counts[i];
-            return *this;
-        }
-    };
-    const Sum sum =
-        reduceBlocks(particles_.size(), kParticlesPerBlock, Sum{Counts(bodies_.size(), 0)}, [&](IndexRange range) {
-            Sum part{Counts(bodies_.size(), 0)};
-            StepTally trial(bodies_.size());
-            for (std::size_t i = range.begin; i < range.end; ++i) {
-                if (skipped_[i] != 0) continue;
-                MovingParticle particle = load(i);
-                particle.hits = nullptr;
-                for (Vec3d& impulse : trial.impulse) impulse.setZero();
-                step(particle, placed, options_.step, trial);
-                for (std::size_t b = 0; b < bodies_.size(); ++b)
-                    part.counts[b] += bodies_[b] && !trial.impulse[b].isZero(0.0) ? 1 : 0;
-            }
-            return part;
-        });
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
-        if (!bodies_[b]) continue;
-        RigidBody moved = *bodies_[b];
-        moved.move(options_.step.dt);
-        placed.share(b, BodyShare(moved, double(std::max<std::uint64_t>(1, sum.counts[b]))));
-    }
-}
-
-// All particles through each step before the next, since they move what the others meet.
-StepTally ParticlePass::advanceTogether(int steps, Progress& progress)
-{
-    StepTally total(colliders_->size());
-    ProgressCounter counter(progress, static_cast<std::uint64_t>(steps));
-    for (int s = 0; s < steps; ++s) {
-        throwIfStopped(progress);
-        for (auto& body : bodies_) {
-            if (body) body->accelerate(options_.step.gravity, options_.step.dt);
-        }
-        PlacedColliders placed = placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt);
-        shareBodies(placed);
-        const StepTally tally =
-            reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
-                StepTally part(colliders_->size());
-                for (std::size_t i = range.begin; i < range.end; ++i) {
-                    if (skipped_[i] != 0) continue;
-                    MovingParticle particle = load(i);
-                    step(particle, placed, options_.step, part);
-                    store(i, particle);
-                }
-                return part;
-            });
-        for (std::size_t b = 0; b < bodies_.size(); ++b) {
-            if (!bodies_[b]) continue;
-            bodies_[b]->move(options_.step.dt);
-            bodies_[b]->push(tally.impulse[b], tally.angularImpulse[b]);
-        }
-        total += tally;
-        counter.add(1);
-    }
-    return total;
-}
-
 std::uint64_t ParticlePass::removeDeleted()
 {
     std::vector<std::size_t> kept;
@@ -218,6 +147,7 @@ std::uint64_t ParticlePass::removeDeleted()
     memory_.resize(kept.size());
     skipped_.resize(kept.size());
     keepOnly(particles_, kept);
+    if (options_.interact) gatherSpheres();
     return deleted;
 }
 
@@ -225,7 +155,8 @@ PassReport ParticlePass::advance(int steps, Progress& progress)
 {
     if (!settled_) settleAll();
     PassReport report;
-    report.tally = colliders_->anyFree() ? advanceTogether(steps, progress) : advanceApart(steps, progress);
+    report.tally =
+        colliders_->anyFree() || options_.interact ? advanceTogether(steps, progress) : advanceApart(steps, progress);
     step_ += static_cast<std::uint64_t>(steps);
     report.deleted = removeDeleted();
     report.rejected =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vdbounce/base/progress.h"
+#include "vdbounce/contact/particle_contact.h"
 #include "vdbounce/contact/step.h"
 #include "vdbounce/particles/particles.h"
 
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace vdbounce {
+
+/// Particles a task: some tenths of a millisecond of work, and few enough that a thousand tasks share out evenly.
+constexpr std::size_t kParticlesPerBlock = 1024;
 
 /// What a particle has whose file carries no such attribute.
 struct ParticleDefaults {
@@ -30,14 +34,15 @@ struct PassOptions {
     std::uint64_t firstStep = 0; ///< steps that lie before; times of motions are the number of the step times dt
     bool hits = false;           ///< keep Particles::hits
     bool interact = false;       ///< particles collide with each other
+    InteractOptions particles;   ///< how, if so
 };
 
 /// Advances a set of particles, in parallel, and remembers between calls what it knows of them: how far each can move
 /// before it could touch anything.
 ///
-/// Where no collider is moved by particles these do not see each other, so each is taken through all steps of a call
-/// while it and the voxels around it are in the cache. Results, sums included, have the same bits for any number of
-/// threads and any split of the steps into calls.
+/// Where particles neither move colliders nor collide with each other they do not see each other, so each is taken
+/// through all steps of a call while it and the voxels around it are in the cache. Results, sums included, have the
+/// same bits for any number of threads and any split of the steps into calls.
 ///
 ///     ParticlePass pass(particles, colliders, options);
 ///     for (int frame = 0; frame < 48; ++frame) pass.advance(10);
@@ -71,7 +76,12 @@ private:
     PlacedColliders placedAt(std::uint64_t step, double dt) const;
     StepTally advanceApart(int steps, Progress& progress);
     StepTally advanceTogether(int steps, Progress& progress);
+    StepTally stepAll(const PlacedColliders& placed);
     void shareBodies(PlacedColliders& placed);
+    void gatherSpheres();
+    StepTally stepInteracting(const PlacedColliders& placed);
+    StepTally answerMoved(const PlacedColliders& placed, const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends,
+                          std::vector<Vec3d>& endVelocities, const std::vector<std::uint8_t>& changed);
     std::uint64_t removeDeleted();
 
     Particles& particles_;
@@ -81,7 +91,8 @@ private:
     std::vector<Memory> memory_;
     std::vector<std::uint8_t> skipped_; // deleted or rejected
     std::vector<std::optional<RigidBody>> bodies_;
-    bool settled_ = false;
+    Spheres spheres_;      // of particles that collide with each other
+    bool settled_ = false; // memory_ is right for these colliders
 };
 
 /// The same in one call, for particles of which nothing is known yet.

@@ -108,6 +108,9 @@ void collideContact(ParticleStep& step, Touch touch);
 void iterate(ParticleStep& step, Touch touch);
 void once(ParticleStep& step, const Touch& touch);
 
+/// Inelastic contact over the whole step, of collideContact(): what still touches afterwards could not be resolved.
+Touch rest(ParticleStep& step, Touch touch);
+
 /// For a particle that began inside: moves it out by a share of its depth, inelastically.
 void recover(ParticleStep& step);
 /// The same by an impulse in proportion to the depth, with friction (slide 3).

@@ -29,7 +29,16 @@ Touch bounce(ParticleStep& step, Touch touch)
     return touch;
 }
 
-// Inelastic contact over the whole step.
+// These schemes go on from the average velocity as if the particle had it at the end: the collider answers for the
+// difference too, or momentum would be lost.
+void answerAverage(ParticleStep& step, const Touch& touch)
+{
+    step.react(touch.collider, step.contactPoint(touch), step.averageVelocity() - step.endVelocity);
+    step.endVelocity = step.averageVelocity();
+}
+
+} // namespace
+
 Touch rest(ParticleStep& step, Touch touch)
 {
     Vec3d average = step.averageVelocity();
@@ -44,16 +53,6 @@ Touch rest(ParticleStep& step, Touch touch)
     }
     return touch;
 }
-
-// These schemes go on from the average velocity as if the particle had it at the end: the collider answers for the
-// difference too, or momentum would be lost.
-void answerAverage(ParticleStep& step, const Touch& touch)
-{
-    step.react(touch.collider, step.contactPoint(touch), step.averageVelocity() - step.endVelocity);
-    step.endVelocity = step.averageVelocity();
-}
-
-} // namespace
 
 void collideContact(ParticleStep& step, Touch touch)
 {

@@ -129,4 +129,29 @@ void step(MovingParticle& particle, const PlacedColliders& colliders, const Step
     answerNear(step);
 }
 
+void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved, const Vec3d& velocity,
+               const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
+{
+    if (particle.deleted || particle.inside) return;
+    const double way = (moved - particle.position).norm();
+    if (way + roundingOf(moved) < particle.clearance) {
+        particle.position = moved;
+        particle.velocity = velocity;
+        particle.clearance -= way + roundingOf(moved);
+        return;
+    }
+    MovingParticle from = particle;
+    from.position = start;
+    from.clearance = 0.0; // was that of another place
+    ParticleStep step(from, colliders, options, tally);
+    step.candidate = moved;
+    step.endVelocity = velocity;
+    Touch touch = step.look();
+    if (touch.touching) touch = rest(step, touch);
+    if (touch.touching || step.probe.gap < 0.0) return;
+    particle.position = step.candidate;
+    particle.velocity = step.endVelocity;
+    particle.clearance = step.probe.clearance;
+}
+
 } // namespace vdbounce

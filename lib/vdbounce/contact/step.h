@@ -82,4 +82,9 @@ void settle(MovingParticle& particle, const PlacedColliders& colliders);
 /// so (slide 3).
 void step(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally);
 
+/// For a particle that others have moved to `moved`, with `velocity`, after its step from `start`: contact with the
+/// colliders over the whole step once more. Where these leave no room it stays where the step had left it.
+void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved, const Vec3d& velocity,
+               const PlacedColliders& colliders, const StepOptions& options, StepTally& tally);
+
 } // namespace vdbounce

@@ -81,6 +81,7 @@ public:
         options.defaults = defaults_;
         options.hits = scene_.hits;
         options.interact = scene_.interact;
+        options.particles = scene_.particles;
         options.firstStep = std::uint64_t(options_.firstFrame) * std::uint64_t(scene_.stepsPerFrame);
         ParticlePass pass(particles_, colliders_, options);
         if (options_.firstFrame == 0) writeFrame(0);

@@ -62,6 +62,10 @@ std::optional<SceneFault> findFault(const Scene& scene)
     checker.require(radius >= 0.0 && std::isfinite(radius), "particles.radius", radius, "give 0 or more");
     checker.require(scene.mass > 0.0 && std::isfinite(scene.mass), "particles.mass", scene.mass,
                     "give a positive mass");
+    checker.require(scene.particles.restitution >= 0.0 && scene.particles.restitution <= 1.0, "particles.restitution",
+                    scene.particles.restitution, "give 0 to 1");
+    checker.require(scene.particles.friction >= 0.0 && std::isfinite(scene.particles.friction), "particles.friction",
+                    scene.particles.friction, "give 0 or more");
     checker.require(scene.maxBounces >= 0, "contact.max_bounces", scene.maxBounces, "give 0 or more");
     checker.require(scene.repulsionRange.value >= 0.0 && std::isfinite(scene.repulsionRange.value),
                     "contact.repulsion.range", scene.repulsionRange.value, "give 0 or more");

@@ -4,6 +4,7 @@
 #include "vdbounce/base/length.h"
 #include "vdbounce/base/vector.h"
 #include "vdbounce/contact/motion.h"
+#include "vdbounce/contact/particle_contact.h"
 #include "vdbounce/contact/step.h"
 
 #include <optional>
@@ -56,6 +57,7 @@ struct Scene {
     Length repulsionRange;          ///< in voxels: of the finest level set
     double repulsionStrength = 0.0; ///< world units / s^2, >= 0
     bool interact = false;          ///< particles collide with each other
+    InteractOptions particles;      ///< and how
 
     std::vector<ColliderSpec> colliders;
 

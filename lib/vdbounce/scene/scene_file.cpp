@@ -35,6 +35,8 @@ void readParticles(SceneTable table, const std::string& sceneFile, Scene& scene)
     scene.radius = table.length("radius", scene.radius);
     scene.mass = table.number("mass", scene.mass);
     scene.interact = table.boolean("interact", scene.interact);
+    scene.particles.restitution = table.number("restitution", scene.particles.restitution);
+    scene.particles.friction = table.number("friction", scene.particles.friction);
     table.finish();
 }
 
