@@ -2,12 +2,17 @@
 #include "vdbounce/contact/particle_pass.h"
 
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/contact/free_flight.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vdbounce {
 namespace {
+
+// The clearance of what does not move by itself.
+constexpr double kNeverFree = -1.0;
 
 MovingParticle fromArrays(const Particles& particles, std::size_t i, const ParticleDefaults& defaults)
 {
@@ -37,7 +42,8 @@ bool anySticks(const ColliderSet& colliders)
 
 ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, const PassOptions& options)
     : particles_(particles), colliders_(&colliders), options_(options), step_(options.firstStep),
-      memory_(particles.size()), skipped_(particles.size(), 0)
+      clearance_(particles.size(), -1.0), inside_(particles.size(), 0), touching_(particles.size(), 0),
+      skipped_(particles.size(), 0)
 {
     particles_.ensureVelocity();
     if (options.hits && particles_.hits.empty()) particles_.hits.resize(particles_.size());
@@ -65,9 +71,9 @@ void ParticlePass::setColliders(const ColliderSet& colliders)
 MovingParticle ParticlePass::load(std::size_t i)
 {
     MovingParticle particle = fromArrays(particles_, i, options_.defaults);
-    particle.clearance = memory_[i].clearance;
-    particle.inside = memory_[i].inside;
-    particle.touching = memory_[i].touching;
+    particle.clearance = clearance_[i];
+    particle.inside = inside_[i] != 0;
+    particle.touching = touching_[i] != 0;
     if (!particles_.stuckTo.empty()) particle.stuckTo = particles_.stuckTo[i];
     if (options_.hits) particle.hits = &particles_.hits[i];
     return particle;
@@ -77,9 +83,12 @@ void ParticlePass::store(std::size_t i, const MovingParticle& particle)
 {
     particles_.position[i] = particle.position;
     particles_.velocity[i] = particle.velocity;
-    memory_[i] = {particle.clearance, particle.inside, particle.touching};
+    clearance_[i] = particle.clearance;
+    inside_[i] = particle.inside ? 1 : 0;
+    touching_[i] = particle.touching ? 1 : 0;
     if (!particles_.stuckTo.empty()) particles_.stuckTo[i] = particle.stuckTo;
     if (particle.deleted) skipped_[i] = 1;
+    if (particle.deleted || particle.stuckTo != MovingParticle::kNotStuck) clearance_[i] = kNeverFree;
 }
 
 // The colliders during one step; without a length, as they are when it begins.
@@ -103,7 +112,7 @@ void ParticlePass::settleAll()
         if (skipped_[i] != 0) return;
         MovingParticle particle = load(i);
         settle(particle, placed);
-        memory_[i] = {particle.clearance, particle.inside, memory_[i].touching};
+        store(i, particle);
     });
     settled_ = true;
 }
@@ -115,14 +124,28 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
     const bool still = colliders_->still();
     for (int s = 0; s < (still ? 1 : steps); ++s)
         placed.push_back(placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt));
+    std::vector<double> reach(static_cast<std::size_t>(steps), 0.0);
+    for (std::size_t s = 0; s < placed.size(); ++s) reach[s] = placed[s].reach();
+    FlightPlan plan = flightPlan(options_.step);
+    plan.reach = reach.data();
+    plan.steps = steps;
+
     ProgressCounter counter(progress, particles_.size());
     return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
         throwIfStopped(progress);
         StepTally tally(colliders_->size());
-        for (std::size_t i = range.begin; i < range.end; ++i) {
+        std::array<int, kParticlesPerBlock> done;
+        const std::size_t begin = range.begin;
+        flyFreely(plan, &particles_.position[begin], &particles_.velocity[begin], &clearance_[begin],
+                  range.end - begin, done.data());
+        for (std::size_t i = begin; i < range.end; ++i) {
             if (skipped_[i] != 0) continue;
+            const int flown = done[i - begin];
+            tally.free += static_cast<std::uint64_t>(flown);
+            if (flown > 0 && touching_[i] != 0) touching_[i] = 0;
+            if (flown == steps) continue;
             MovingParticle particle = load(i);
-            for (int s = 0; s < steps && !particle.deleted; ++s)
+            for (int s = flown; s < steps && !particle.deleted; ++s)
                 step(particle, placed[still ? 0 : std::size_t(s)], options_.step, tally);
             store(i, particle);
         }
@@ -141,11 +164,13 @@ std::uint64_t ParticlePass::removeDeleted()
     const std::uint64_t deleted = skipped_.size() - kept.size();
     if (deleted == 0) return 0;
     for (std::size_t k = 0; k < kept.size(); ++k) {
-        memory_[k] = memory_[kept[k]];
+        clearance_[k] = clearance_[kept[k]];
+        inside_[k] = inside_[kept[k]];
+        touching_[k] = touching_[kept[k]];
         skipped_[k] = skipped_[kept[k]];
     }
-    memory_.resize(kept.size());
-    skipped_.resize(kept.size());
+    clearance_.resize(kept.size());
+    for (auto* flags : {&inside_, &touching_, &skipped_}) flags->resize(kept.size());
     keepOnly(particles_, kept);
     if (options_.interact) gatherSpheres();
     return deleted;

@@ -62,13 +62,6 @@ public:
     const std::vector<std::optional<RigidBody>>& bodies() const { return bodies_; }
 
 private:
-    // What is kept of a particle between steps.
-    struct Memory {
-        double clearance;
-        bool inside;
-        bool touching;
-    };
-
     double timeOf(std::uint64_t step) const { return double(step) * options_.step.dt; }
     MovingParticle load(std::size_t i);
     void store(std::size_t i, const MovingParticle& particle);
@@ -88,11 +81,14 @@ private:
     const ColliderSet* colliders_;
     PassOptions options_;
     std::uint64_t step_;
-    std::vector<Memory> memory_;
+    // What is kept of a particle between steps.
+    std::vector<double> clearance_; // negative: not to be flown freely
+    std::vector<std::uint8_t> inside_;
+    std::vector<std::uint8_t> touching_;
     std::vector<std::uint8_t> skipped_; // deleted or rejected
     std::vector<std::optional<RigidBody>> bodies_;
     Spheres spheres_;      // of particles that collide with each other
-    bool settled_ = false; // memory_ is right for these colliders
+    bool settled_ = false; // what is kept is right for these colliders
 };
 
 /// The same in one call, for particles of which nothing is known yet.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/step.h"
 
-#include "vdbounce/contact/free_flight.h"
 #include "vdbounce/contact/particle_step.h"
 
 #include <algorithm>
@@ -95,6 +94,15 @@ void answerNear(ParticleStep& step)
 
 } // namespace
 
+FlightPlan flightPlan(const StepOptions& options)
+{
+    FlightPlan plan;
+    plan.speedUp = options.dt * options.gravity;
+    plan.halfStep = options.dt * 0.5;
+    plan.range = options.repulsion.range;
+    return plan;
+}
+
 void settle(MovingParticle& particle, const PlacedColliders& colliders)
 {
     const Probe probe = colliders.probe(particle.position, particle.radius);
@@ -110,19 +118,17 @@ void step(MovingParticle& particle, const PlacedColliders& colliders, const Step
         ride(particle, colliders, options, tally);
         return;
     }
+    const FlightPlan plan = flightPlan(options);
+    if (flyFreely(plan, colliders.reach(), particle.position, particle.velocity, particle.clearance)) {
+        ++tally.free;
+        particle.touching = false;
+        return;
+    }
     ParticleStep step(particle, colliders, options, tally);
-    const double way = (step.candidate - step.start).norm();
-    if (!std::isfinite(way)) {
+    if (!std::isfinite((step.candidate - step.start).norm())) {
         // Faster than numbers go: nothing can be said about where it would be.
         ++tally.near;
         ++tally.unresolved;
-        return;
-    }
-    if (way + colliders.reach() + options.repulsion.range < particle.clearance) {
-        ++tally.free;
-        particle.touching = false;
-        step.accept();
-        particle.clearance -= way + colliders.reach() + roundingOf(step.candidate);
         return;
     }
     ++tally.near;
@@ -134,10 +140,11 @@ void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved,
 {
     if (particle.deleted || particle.inside) return;
     const double way = (moved - particle.position).norm();
-    if (way + roundingOf(moved) < particle.clearance) {
+    const double rounding = kClearanceRounding * moved.cwiseAbs().maxCoeff();
+    if (way + rounding < particle.clearance) {
         particle.position = moved;
         particle.velocity = velocity;
-        particle.clearance -= way + roundingOf(moved);
+        particle.clearance -= way + rounding;
         return;
     }
     MovingParticle from = particle;

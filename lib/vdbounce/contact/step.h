@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/contact/free_flight.h"
 #include "vdbounce/contact/placed_colliders.h"
 #include "vdbounce/contact/step_tally.h"
 #include "vdbounce/particles/hit_record.h"
@@ -54,6 +55,9 @@ struct MovingParticle {
 
     static constexpr int kNotStuck = -1;
 };
+
+/// What free flight needs of the options; reach and steps are left to the caller.
+FlightPlan flightPlan(const StepOptions& options);
 
 /// Finds out what surrounds a particle; needed before its first step, with the colliders as they are then.
 void settle(MovingParticle& particle, const PlacedColliders& colliders);
