@@ -71,7 +71,7 @@ TEST_CASE("a scene's moving ball pushes what is in its way")
 TEST_CASE("frames of a moving scene go on where they left off, to the bit")
 {
     const BallScene scene("file = \"ball.vdb\"\nmotion = { velocity = [0.3,1,0], angular_velocity = [0,0,2] }",
-                          "x,y,z,vx\n0,1.5,0,0\n0.3,1.3,0.1,-1\n-0.5,1.2,0,0\n");
+                          "x,y,z,vx,vy,vz\n0,1.5,0,0,0,0\n0.3,1.3,0.1,-1,0,0\n-0.5,1.2,0,0,0,0\n");
     scene.run();
     const Particles whole = scene.frame(10);
     scene.run("--frames 0-4");
