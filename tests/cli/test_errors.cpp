@@ -111,7 +111,7 @@ TEST_CASE("a tolerance that is not met ends with exit code 4 and writes nothing"
 TEST_CASE("every verb has help with an example, and the tool a version")
 {
     for (const char* verb : {"mesh2ls", "info", "sample", "emit", "emit box", "emit sphere", "emit surface", "convert",
-                             "collide", "render", "slice", "bench", "bench field"}) {
+                             "collide", "render", "slice", "bench", "bench field", "bench collide"}) {
         INFO(verb);
         const ToolRun run = runTool(std::string(verb) + " --help");
         CHECK(run.exitCode == 0);

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 
 using namespace vdbounce;
@@ -157,6 +158,29 @@ TEST_CASE("bench field prints each figure with its peer's and their ratio")
     const ToolRun refused = runTool("bench field " + (folder / "nowhere.vdb") + " --points 1000");
     CHECK(refused.exitCode == 3);
     CHECK(lineCount(refused.err) == 1);
+}
+
+TEST_CASE("bench collide prints what a particle step costs beside its peers'")
+{
+    const ToolRun result = runTool("bench collide --particles 2000 --repetitions 1 --threads 2 --json");
+    INFO(result.err);
+    REQUIRE(result.exitCode == 0);
+    const Json json = Json::parse(result.out);
+    std::map<std::string, double> shares;
+    std::size_t withPeer = 0;
+    for (const Json& one : json["cases"]) {
+        const auto name = one["name"].get<std::string>();
+        if (one["unit"] == "%") shares[name] = one["value"];
+        if (!one.contains("peer")) continue;
+        ++withPeer;
+        CHECK(one["value"] > 0.0);
+        CHECK(one["ratio"].get<double>() ==
+              Approx(one["peer"]["value"].get<double>() / one["value"].get<double>()).epsilon(1e-6));
+    }
+    CHECK(withPeer >= 4);
+    // In the example nothing reaches the sphere; from near above everything does.
+    CHECK(shares.at("column above a sphere, 2e3 particles, particle steps without a lookup") == 100.0);
+    CHECK(shares.at("column landing on a sphere, 2e3 particles, particle steps with contact") > 0.9);
 }
 
 TEST_CASE("a surface is covered with particles")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,5 +26,13 @@ struct Case {
 };
 
 using Cases = std::vector<Case>;
+
+/// A count for the name of a case: "2e6".
+inline std::string countText(std::size_t count)
+{
+    int exponent = 0;
+    for (; count >= 10 && count % 10 == 0; count /= 10) ++exponent;
+    return std::to_string(count) + "e" + std::to_string(exponent);
+}
 
 } // namespace vdbounce::bench

@@ -5,6 +5,7 @@
 #include "bench/field_variants.h"
 #include "bench/point_sets.h"
 #include "bench/stopwatch.h"
+#include "bench/thread_counts.h"
 
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/field/sample_points.h"
@@ -13,10 +14,7 @@
 #include <openvdb/tools/LevelSetSphere.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
-
-#include <tbb/global_control.h>
 
 namespace vdbounce::bench {
 namespace {
@@ -81,23 +79,6 @@ private:
     double worstDisagreement_ = 0.0;
 };
 
-std::string countText(std::size_t count)
-{
-    int exponent = 0;
-    for (; count >= 10 && count % 10 == 0; count /= 10) ++exponent;
-    return std::to_string(count) + "e" + std::to_string(exponent);
-}
-
-void onOneAndAllThreads(const std::function<void(const std::string& threads)>& body)
-{
-    const auto all = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-    {
-        const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        body("1 thread");
-    }
-    if (all > 1) body(std::to_string(all) + " threads");
-}
-
 } // namespace
 
 FieldSubject sphereSubject()
@@ -114,7 +95,7 @@ Cases benchField(const FieldSubject& subject, const FieldBenchOptions& options, 
     const std::vector<FieldPeer> peers = fieldPeers(subject.grid);
     double disagreement = 0.0;
     for (std::size_t count : options.points) {
-        std::vector<Vec3d> points = pointsNearSurface(field, count, kNearVx);
+        std::vector<Vec3d> points = pointsNearSurface(field, count, {-kNearVx, kNearVx});
         const auto measure = [&](const std::string& order) {
             throwIfStopped(progress);
             PointsBench bench(field, peers, points, options.repetitions);

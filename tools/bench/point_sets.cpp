@@ -5,6 +5,7 @@
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/build/random_numbers.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace vdbounce::bench {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 constexpr std::size_t kPointsPerTask = 8192;
-constexpr int kMostTries = 10000; // a point near a surface needs two or three
+constexpr int kMostTries = 10000; // a point near a surface or beside a body needs two or three
 
 // The voxels whose cells a point within `distance` of the surface can lie in.
 std::vector<Vec3i> voxelsNearSurface(const DistanceField& field, double distance)
@@ -28,25 +29,28 @@ std::vector<Vec3i> voxelsNearSurface(const DistanceField& field, double distance
     return voxels;
 }
 
+[[noreturn]] void refuse(const char* needed)
+{
+    throw InputError("bench", std::string("the level set has no ") + needed, "measure another one");
+}
+
 } // namespace
 
-std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, double distanceVx)
+std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx)
 {
-    const double distance = distanceVx * field.voxelSize();
-    const std::vector<Vec3i> voxels = voxelsNearSurface(field, distance);
-    const auto refuse = [] {
-        throw InputError("bench field", "the level set has no surface to put points near", "measure another one");
-    };
-    if (voxels.empty()) refuse();
+    const Interval phi{phiVx.lower * field.voxelSize(), phiVx.upper * field.voxelSize()};
+    const std::vector<Vec3i> voxels = voxelsNearSurface(field, std::max(-phi.lower, phi.upper));
+    const char* needed = "surface to put points near";
+    if (voxels.empty()) refuse(needed);
     std::vector<Vec3d> points(count);
     forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
         CounterRandom random(kSeed, i);
         int tries = 0;
         do {
-            if (++tries > kMostTries) refuse();
+            if (++tries > kMostTries) refuse(needed);
             const Vec3i& voxel = voxels[std::size_t(random.uniform() * double(voxels.size()))];
             points[i] = field.transform().toWorld(voxel.cast<double>() + random.uniformVector());
-        } while (std::abs(field.phi(points[i])) > distance);
+        } while (!phi.contains(field.phi(points[i])));
     });
     return points;
 }
@@ -58,6 +62,20 @@ std::vector<Vec3d> pointsInBox(const DistanceField& field, std::size_t count)
     forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
         CounterRandom random(kSeed, i);
         points[i] = field.transform().toWorld(box.min + random.uniformVector().cwiseProduct(box.size()));
+    });
+    return points;
+}
+
+std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, std::size_t count)
+{
+    std::vector<Vec3d> points(count);
+    forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
+        CounterRandom random(kSeed, i);
+        int tries = 0;
+        do {
+            if (++tries > kMostTries) refuse("room around it");
+            points[i] = box.min + random.uniformVector().cwiseProduct(box.size());
+        } while (!(field.phi(points[i]) > 0.0));
     });
     return points;
 }

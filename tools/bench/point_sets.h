@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/base/box.h"
+#include "vdbounce/base/interval.h"
 #include "vdbounce/field/distance_field.h"
 
 #include <vector>
 
 namespace vdbounce::bench {
 
-/// `count` points within `distanceVx` voxels of the field's surface, in random order.
-std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, double distanceVx);
+/// `count` points whose phi in voxels lies in `phiVx`, which holds 0, in random order.
+std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx);
 
 /// `count` points anywhere in the field's box, in random order.
 std::vector<Vec3d> pointsInBox(const DistanceField& field, std::size_t count);
+
+/// `count` points of a world box where phi > 0, in random order.
+std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, std::size_t count);
 
 /// The same points, those of one leaf after those of the other.
 std::vector<Vec3d> inLeafOrder(const DistanceField& field, const std::vector<Vec3d>& points);

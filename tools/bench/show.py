@@ -15,7 +15,8 @@ def ratios(path):
 def main(path):
     run = json.loads(pathlib.Path(path).read_text())
     print(run["machine"])
-    baselines = sorted(pathlib.Path(__file__).parent.glob("baselines/field-*.json"))
+    kind = pathlib.Path(path).stem.removeprefix("bench-")
+    baselines = sorted(pathlib.Path(__file__).parent.glob(f"baselines/{kind}-*.json"))
     before = ratios(baselines[-1]) if baselines else {}
     if baselines:
         print("ratios in brackets: " + baselines[-1].name)

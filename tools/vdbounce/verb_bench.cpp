@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_collide.h"
 #include "bench/bench_field.h"
 #include "bench/machine.h"
 #include "option_values.h"
@@ -19,9 +20,13 @@ namespace {
 constexpr const char* kDragon = "data/fetched/dragon_vrip.ply";
 constexpr int kDragonDim = 512;
 
+// The mesh that comes with the sources.
+constexpr const char* kBunny = "data/bunny.obj";
+
 struct BenchArguments {
     std::vector<std::string> files;
     std::vector<std::uint64_t> points;
+    std::uint64_t particles = 10'000'000;
     int repetitions = 3;
 };
 
@@ -67,21 +72,80 @@ std::string toText(const bench::Case& result)
     return text;
 }
 
+void reportCases(const CommonOptions& common, const bench::Cases& cases)
+{
+    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
+    std::string text = json["machine"].get<std::string>();
+    for (const bench::Case& result : cases) {
+        json["cases"].push_back(toJson(result));
+        text += "\n" + toText(result);
+    }
+    report(common, json, text);
+}
+
+void append(bench::Cases& all, const bench::Cases& cases) { all.insert(all.end(), cases.begin(), cases.end()); }
+
 void runBenchField(const BenchArguments& arguments, const CommonOptions& common)
 {
     ProgressBar progress(common, "bench field");
     bench::FieldBenchOptions options;
     options.repetitions = arguments.repetitions;
     if (!arguments.points.empty()) options.points.assign(arguments.points.begin(), arguments.points.end());
-    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
-    std::string text = json["machine"].get<std::string>();
-    for (const bench::FieldSubject& subject : subjectsOf(arguments, common, progress)) {
-        for (const bench::Case& result : bench::benchField(subject, options, progress)) {
-            json["cases"].push_back(toJson(result));
-            text += "\n" + toText(result);
-        }
+    bench::Cases cases;
+    for (const bench::FieldSubject& subject : subjectsOf(arguments, common, progress))
+        append(cases, bench::benchField(subject, options, progress));
+    reportCases(common, cases);
+}
+
+void runBenchCollide(const BenchArguments& arguments, const CommonOptions& common)
+{
+    ProgressBar progress(common, "bench collide");
+    bench::CollideBenchOptions options;
+    options.repetitions = arguments.repetitions;
+    options.particles = arguments.particles;
+    bench::Cases cases = bench::benchColumn(options, progress);
+    if (std::filesystem::exists(kBunny)) {
+        append(cases, bench::benchMeshBox("bunny", readMesh(kBunny), options, progress));
+    } else {
+        warn(common, std::string("the bunny is left out: there is no ") + kBunny + " here");
     }
-    report(common, json, text);
+    reportCases(common, cases);
+}
+
+void addRepetitions(CLI::App& verb, int& repetitions)
+{
+    verb.add_option("--repetitions", repetitions, "Runs, of which the median is printed")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->type_name("N");
+}
+
+void addBenchField(CLI::App& bench, const CommonOptions& common)
+{
+    auto arguments = std::make_shared<BenchArguments>();
+    auto* field = bench.add_subcommand("field", "Lookups of phi and gradient against OpenVDB's and NanoVDB's");
+    field->add_option("FIELD", arguments->files,
+                      "Level sets, .vdb; without any the sphere of radius 256 voxels and the dragon at 512");
+    field->add_option("--points", arguments->points, "Points to look up (default 2000000 20000000)")
+        ->check(CLI::Range(std::uint64_t(1000), std::uint64_t(1000000000)))
+        ->type_name("N");
+    addRepetitions(*field, arguments->repetitions);
+    field->footer("Example:\n  vdbounce bench field bunny.vdb --points 2000000");
+    field->callback([arguments, &common] { runWith(common, [&] { runBenchField(*arguments, common); }); });
+}
+
+void addBenchCollide(CLI::App& bench, const CommonOptions& common)
+{
+    auto arguments = std::make_shared<BenchArguments>();
+    auto* collide =
+        bench.add_subcommand("collide", "Steps of colliding particles against NanoVDB's example and bare movement");
+    collide->add_option("--particles", arguments->particles, "Particles of each situation")
+        ->check(CLI::Range(std::uint64_t(1000), std::uint64_t(1000000000)))
+        ->capture_default_str()
+        ->type_name("N");
+    addRepetitions(*collide, arguments->repetitions);
+    collide->footer("Example:\n  vdbounce bench collide --particles 1000000");
+    collide->callback([arguments, &common] { runWith(common, [&] { runBenchCollide(*arguments, common); }); });
 }
 
 } // namespace
@@ -91,19 +155,8 @@ void addBench(CLI::App& app, const CommonOptions& common)
     auto* verb = app.add_subcommand("bench", "Measure speed against other programs' libraries, in one run");
     verb->require_subcommand(1);
     verb->footer("Example:\n  vdbounce bench field --json");
-    auto arguments = std::make_shared<BenchArguments>();
-    auto* field = verb->add_subcommand("field", "Lookups of phi and gradient against OpenVDB's and NanoVDB's");
-    field->add_option("FIELD", arguments->files,
-                      "Level sets, .vdb; without any the sphere of radius 256 voxels and the dragon at 512");
-    field->add_option("--points", arguments->points, "Points to look up (default 2000000 20000000)")
-        ->check(CLI::Range(std::uint64_t(1000), std::uint64_t(1000000000)))
-        ->type_name("N");
-    field->add_option("--repetitions", arguments->repetitions, "Runs, of which the median is printed")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str()
-        ->type_name("N");
-    field->footer("Example:\n  vdbounce bench field bunny.vdb --points 2000000");
-    field->callback([arguments, &common] { runWith(common, [&] { runBenchField(*arguments, common); }); });
+    addBenchField(*verb, common);
+    addBenchCollide(*verb, common);
 }
 
 } // namespace vdbounce::tool

@@ -120,7 +120,7 @@ void ParticleContact::collide(const std::vector<Vec3d>& positions, std::vector<V
 }
 
 bool ParticleContact::rest(const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends,
-                           std::vector<Vec3d>& endVelocities, double dt, std::vector<std::uint8_t>& changed) const
+                           std::vector<Vec3d>& endVelocities, std::vector<std::uint8_t>& changed) const
 {
     changed.assign(starts.size(), 0);
     forEachPair([&](const Pair& pair) {

@@ -30,10 +30,10 @@ bool canBeStepped(const MovingParticle& particle)
            std::isfinite(particle.radius) && particle.mass > 0.0 && std::isfinite(particle.mass);
 }
 
-bool anySticks(const ColliderSet& colliders)
+bool anyOnHit(const ColliderSet& colliders, OnHit onHit)
 {
     for (std::size_t i = 0; i < colliders.size(); ++i) {
-        if (colliders[i].onHit == OnHit::Stick) return true;
+        if (colliders[i].onHit == onHit) return true;
     }
     return false;
 }
@@ -47,7 +47,7 @@ ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, c
 {
     particles_.ensureVelocity();
     if (options.hits && particles_.hits.empty()) particles_.hits.resize(particles_.size());
-    if (anySticks(colliders) && particles_.stuckTo.empty())
+    if (anyOnHit(colliders, OnHit::Stick) && particles_.stuckTo.empty())
         particles_.stuckTo.assign(particles_.size(), MovingParticle::kNotStuck);
     std::fill(particles_.rejected.begin(), particles_.rejected.end(), std::uint8_t(0));
     for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -156,6 +156,7 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
 
 std::uint64_t ParticlePass::removeDeleted()
 {
+    if (!anyOnHit(*colliders_, OnHit::Delete)) return 0;
     std::vector<std::size_t> kept;
     for (std::size_t i = 0; i < skipped_.size(); ++i) {
         const bool rejected = !particles_.rejected.empty() && particles_.rejected[i] != 0;

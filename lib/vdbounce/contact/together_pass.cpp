@@ -115,7 +115,7 @@ StepTally ParticlePass::stepInteracting(const PlacedColliders& placed)
     std::vector<Vec3d> endVelocities = particles_.velocity;
     std::vector<std::uint8_t> changed;
     for (int round = 0; round < kContactRounds; ++round) {
-        if (!contact.rest(starts, ends, endVelocities, dt, changed)) break;
+        if (!contact.rest(starts, ends, endVelocities, changed)) break;
         tally += answerMoved(placed, starts, ends, endVelocities, changed);
     }
     return tally;
