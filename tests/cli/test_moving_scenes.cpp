@@ -147,8 +147,7 @@ TEST_CASE("particles collide with each other on request, and repulsion keeps the
 {
     const std::string meeting = "x,y,z,vx,vy,vz,radius\n-3,5,0,1,0,0,0.1\n-2.5,5,0,-1,0,0,0.1\n";
     for (bool interact : {false, true}) {
-        const BallScene scene("file = \"ball.vdb\"", meeting,
-                              interact ? "interact = true\nrestitution = 1\n" : "");
+        const BallScene scene("file = \"ball.vdb\"", meeting, interact ? "interact = true\nrestitution = 1\n" : "");
         scene.run();
         CHECK(scene.frame(10).velocity[0].x() == Approx(interact ? -1.0 : 1.0));
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/grids.h"
+#include "support/grounds.h"
+#include "support/one_particle.h"
 #include "support/random.h"
-#include "support/still_colliders.h"
 
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/contact/step.h"
-
-#include <Eigen/Geometry>
 
 #include <cmath>
 
@@ -14,138 +13,6 @@
 
 using namespace vdbounce;
 using namespace vdbounce::test;
-
-namespace {
-
-constexpr double kGravity = 9.81;
-
-// The same half space as an analytic plane, as a level set along the axes, and as one turned off them.
-struct Ground {
-    const char* name;
-    Shape shape;
-};
-
-std::vector<Ground> grounds(const Vec3d& normal)
-{
-    auto turned = uniformTransform(0.05);
-    turned->postRotate(0.4, openvdb::math::X_AXIS);
-    turned->postRotate(0.3, openvdb::math::Z_AXIS);
-    const auto field = [&](const openvdb::math::Transform::Ptr& transform) {
-        return std::make_shared<const DistanceField>(levelSet(bandGrid(halfSpace(normal, 0.011), transform, 40, 6.0)));
-    };
-    return {{"plane", PlaneField(0.011 * normal.normalized(), normal)},
-            {"aligned level set", field(uniformTransform(0.05))},
-            {"turned level set", field(turned)}};
-}
-
-StillColliders single(const Ground& ground, double restitution, double friction)
-{
-    return StillColliders({{"ground", ground.shape, restitution, friction}});
-}
-
-MovingParticle placed(const Vec3d& position, const Vec3d& velocity, const PlacedColliders& colliders,
-                      double radius = 0.0)
-{
-    MovingParticle particle;
-    particle.position = position;
-    particle.velocity = velocity;
-    particle.radius = radius;
-    settle(particle, colliders);
-    return particle;
-}
-
-double energy(const MovingParticle& p, const Vec3d& gravity)
-{
-    return 0.5 * p.velocity.squaredNorm() - gravity.dot(p.position);
-}
-
-const Vec3d kUp(0, 1, 0);
-
-} // namespace
-
-TEST_CASE("restitution ladder: peak k is (h0 - r) e^(2k) + r")
-{
-    for (const Ground& ground : grounds(kUp)) {
-        for (double e : {0.5, 0.7, 0.9, 1.0}) {
-            INFO(ground.name << ", restitution " << e);
-            const StillColliders colliders = single(ground, e, 0.3);
-            const double radius = 0.02;
-            const double h0 = 1.0;
-            StepOptions options;
-            options.dt = 1e-3;
-            MovingParticle particle = placed(Vec3d(0.01, 0.011 + h0, 0.02), Vec3d::Zero(), colliders, radius);
-            StepTally tally(1);
-            int bounce = 0;
-            double peak = 0.0;
-            bool rising = false;
-            for (int s = 0; s < 6000 && bounce < 5; ++s) {
-                step(particle, colliders, options, tally);
-                const double height = particle.position.y() - 0.011;
-                if (particle.velocity.y() > 0.0) {
-                    rising = true;
-                    peak = std::max(peak, height + particle.velocity.y() * particle.velocity.y() / (2 * kGravity));
-                } else if (rising) {
-                    ++bounce;
-                    const double expected = (h0 - radius) * std::pow(e, 2 * bounce) + radius;
-                    REQUIRE(std::abs(peak - expected) <= 0.005 * h0);
-                    rising = false;
-                    peak = 0.0;
-                }
-            }
-            CHECK(bounce == 5);
-            CHECK(tally.unresolved == 0);
-        }
-    }
-}
-
-TEST_CASE("a sliding particle stops after v0^2 / (2 mu g)")
-{
-    for (const Ground& ground : grounds(kUp)) {
-        INFO(ground.name);
-        const StillColliders colliders = single(ground, 0.4, 0.3);
-        StepOptions options;
-        options.dt = 1e-3;
-        const double v0 = 2.0;
-        MovingParticle particle = placed(Vec3d(-0.5, 0.011, 0), Vec3d(v0, 0, 0), colliders);
-        StepTally tally(1);
-        for (int s = 0; s < 2000; ++s) step(particle, colliders, options, tally);
-        CHECK(particle.velocity.norm() == 0.0);
-        CHECK(particle.position.x() + 0.5 == Approx(v0 * v0 / (2 * 0.3 * kGravity)).epsilon(0.01));
-    }
-}
-
-TEST_CASE("on an incline a particle rests exactly while tan(theta) <= mu, and else accelerates by g (sin - mu cos)")
-{
-    const double mu = 0.4;
-    const double limit = std::atan(mu);
-    for (double theta : {limit - 0.0174, limit + 0.0174, 0.7}) {
-        const Vec3d normal(std::sin(theta), std::cos(theta), 0);
-        const Vec3d downhill(std::cos(theta), -std::sin(theta), 0);
-        for (const Ground& ground : grounds(normal)) {
-            INFO(ground.name << ", " << theta * 180 / M_PI << " degrees");
-            const StillColliders colliders = single(ground, 0.3, mu);
-            StepOptions options;
-            options.dt = 1e-3;
-            const Vec3d start = (0.011 + 1e-6) * normal - 0.5 * downhill;
-            MovingParticle particle = placed(start, Vec3d::Zero(), colliders);
-            StepTally tally(1);
-            // Let it touch first: it starts a hair above.
-            for (int s = 0; s < 20; ++s) step(particle, colliders, options, tally);
-            const Vec3d touched = particle.position;
-            const double before = particle.velocity.dot(downhill);
-            for (int s = 0; s < 400; ++s) step(particle, colliders, options, tally);
-            if (theta < limit) {
-                CHECK(particle.position == touched);
-                CHECK(particle.velocity == Vec3d::Zero());
-            } else {
-                const double expected = kGravity * (std::sin(theta) - mu * std::cos(theta));
-                CHECK((particle.velocity.dot(downhill) - before) / 0.4 == Approx(expected).epsilon(0.01));
-                CHECK((particle.position - touched).dot(downhill) ==
-                      Approx(before * 0.4 + 0.5 * expected * 0.16).epsilon(0.01));
-            }
-        }
-    }
-}
 
 TEST_CASE("a resting particle stays where it is, to the bit")
 {

@@ -14,12 +14,12 @@ namespace vdbounce::test {
 class Random {
 public:
     Random()
-        : seed_(std::getenv("VDBOUNCE_TEST_SEED") != nullptr
-                    ? std::strtoull(std::getenv("VDBOUNCE_TEST_SEED"), nullptr, 10)
-                    : 20260101),
-          engine_(seed_)
+        : Random(std::getenv("VDBOUNCE_TEST_SEED") != nullptr
+                     ? std::strtoull(std::getenv("VDBOUNCE_TEST_SEED"), nullptr, 10)
+                     : 20260101)
     {
     }
+    explicit Random(std::uint64_t seed) : seed_(seed), engine_(seed_) {}
 
     std::uint64_t seed() const { return seed_; }
     double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }

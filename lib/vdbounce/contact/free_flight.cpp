@@ -119,8 +119,7 @@ void flyFreely(const FlightPlan& plan, Vec3d* positions, Vec3d* velocities, doub
     // Those that do not fill a vector.
     for (std::size_t i = count - count % HWY_DYNAMIC_DISPATCH(flockSize)(); i < count; ++i) {
         done[i] = 0;
-        while (done[i] < plan.steps &&
-               flyFreely(plan, plan.reach[done[i]], positions[i], velocities[i], clearances[i]))
+        while (done[i] < plan.steps && flyFreely(plan, plan.reach[done[i]], positions[i], velocities[i], clearances[i]))
             ++done[i];
     }
 }

@@ -41,7 +41,8 @@ public:
 
     /// One round of inelastic contact among particles that went from `starts` to `ends`, where their velocities are
     /// `endVelocities`. Changes both, and marks in `changed` what it moved. False when nothing touches any more.
-    bool rest(const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends, std::vector<Vec3d>& endVelocities, std::vector<std::uint8_t>& changed) const;
+    bool rest(const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends, std::vector<Vec3d>& endVelocities,
+              std::vector<std::uint8_t>& changed) const;
 
     std::size_t pairCount() const { return pairs_.size(); }
 

@@ -136,8 +136,8 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
         StepTally tally(colliders_->size());
         std::array<int, kParticlesPerBlock> done;
         const std::size_t begin = range.begin;
-        flyFreely(plan, &particles_.position[begin], &particles_.velocity[begin], &clearance_[begin],
-                  range.end - begin, done.data());
+        flyFreely(plan, &particles_.position[begin], &particles_.velocity[begin], &clearance_[begin], range.end - begin,
+                  done.data());
         for (std::size_t i = begin; i < range.end; ++i) {
             if (skipped_[i] != 0) continue;
             const int flown = done[i - begin];

@@ -108,14 +108,16 @@ Vec3d ParticleStep::collided(const Vec3d& before, const Touch& touch, double res
 {
     const Collider& collider = colliders[touch.collider];
     const Vec3d at = contactPoint(touch);
+    // The surface's velocity is that of the end of the step, so it is asked for where the point that was hit is then.
+    const Vec3d atEnd = colliders.placement(touch.collider).atEnd(at, touch.when);
     Vec3d after;
     if (collider.body) {
         const Mat3d response =
             Mat3d::Identity() / particle.mass + colliders.placement(touch.collider).body.response(at);
-        const Vec3d w = before - surfaceVelocity(touch.collider, at);
+        const Vec3d w = before - surfaceVelocity(touch.collider, atEnd);
         after = before + impulseBetween(w, touch.normal, restitution, collider.friction, response) / particle.mass;
     } else if (colliders.placement(touch.collider).moves) {
-        const Vec3d surface = surfaceVelocity(touch.collider, at);
+        const Vec3d surface = surfaceVelocity(touch.collider, atEnd);
         after = respond(before - surface, touch.normal, restitution, collider.friction) + surface;
     } else {
         after = respond(before, touch.normal, restitution, collider.friction);

@@ -90,6 +90,9 @@ public:
     /// Writes the hit down where hits are asked for; the first of a contact that lasts.
     void record(const Touch& touch);
 
+    /// Velocity of a collider's surface at the end of the step, with what this particle's impulses have changed.
+    Vec3d surfaceVelocity(std::size_t collider, const Vec3d& at) const;
+
 private:
     bool mayHaveTouchedOnTheWay() const;
 
@@ -97,7 +100,6 @@ private:
         Vec3d linear = Vec3d::Zero();
         Vec3d angular = Vec3d::Zero();
     };
-    Vec3d surfaceVelocity(std::size_t collider, const Vec3d& at) const;
 
     bool swept_ = false;
     std::vector<BodyChange> bodyChanges_; // of free bodies, by this particle's impulses in this step
@@ -108,7 +110,8 @@ void collideContact(ParticleStep& step, Touch touch);
 void iterate(ParticleStep& step, Touch touch);
 void once(ParticleStep& step, const Touch& touch);
 
-/// Inelastic contact over the whole step, of collideContact(): what still touches afterwards could not be resolved.
+/// Inelastic contact over the whole step, of collideContact(), with all walls that are touched at once: what still
+/// touches afterwards could not be resolved.
 Touch rest(ParticleStep& step, Touch touch);
 
 /// For a particle that began inside: moves it out by a share of its depth, inelastically.

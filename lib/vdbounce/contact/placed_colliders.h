@@ -30,6 +30,12 @@ struct Placement {
 
     /// The pose at a time of the step, 0 to 1: the centre of motion moves straight, the rotation evenly.
     Pose between(double share) const;
+
+    /// Where the collider's point that is at `world` at that time is at the end of the step.
+    Vec3d atEnd(const Vec3d& world, double share) const
+    {
+        return moves && share < 1.0 ? end.toWorld(between(share).toLocal(world)) : world;
+    }
 };
 
 /// The colliders of a scene during one step, asked together. Everything is told for the end of the step, as the lecture

@@ -31,6 +31,12 @@ bool leads(const ParticleStep& step, std::size_t collider, const Vec3d& centre, 
     return touch.hasNormal;
 }
 
+// How far one step moves a particle out of a depth.
+double outOf(const ParticleStep& step, double depth)
+{
+    return depth < kShallowVx * step.shortLength() ? step.pushOut(depth) : kRecovery * depth;
+}
+
 // An inelastic answer of the velocity from the start of the step, with the normal there.
 void turnBack(ParticleStep& step)
 {
@@ -56,8 +62,7 @@ void recover(ParticleStep& step)
         const Vec3d average = step.slid(step.averageVelocity(), touch, 0.0);
         step.endVelocity = step.collided(step.endVelocity, touch, 0.0);
         const double depth = std::max(touch.depth, -step.probe.gap);
-        const double push = depth < kShallowVx * step.shortLength() ? step.pushOut(depth) : kRecovery * depth;
-        step.candidate = step.start + step.options.dt * average + push * touch.normal;
+        step.candidate = step.start + step.options.dt * average + outOf(step, depth) * touch.normal;
     }
     step.penetrates();
 }
@@ -77,7 +82,8 @@ void repel(ParticleStep& step)
     const Vec3d surface = step.colliders.surfaceVelocity(collider, step.contactPoint(touch));
     const Vec3d average = step.averageVelocity();
     const Vec3d w = average - surface;
-    const double impulse = kRecovery * depth / step.options.dt; // per mass
+    // Per mass: what carries it out, and first what still carries it in.
+    const double impulse = outOf(step, depth) / step.options.dt + std::max(0.0, -w.dot(touch.normal));
     const Vec3d tangential = w - w.dot(touch.normal) * touch.normal;
     const double slip = tangential.norm();
     const double kept = slip > 0.0 ? std::max(0.0, 1.0 - step.colliders[collider].friction * impulse / slip) : 0.0;

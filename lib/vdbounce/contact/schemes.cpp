@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/particle_step.h"
+#include "vdbounce/contact/walls.h"
 
 #include <algorithm>
+#include <array>
 
 /// @file
 /// The lecture's numerical implementations 1 to 3.
@@ -29,6 +31,36 @@ Touch bounce(ParticleStep& step, Touch touch)
     return touch;
 }
 
+// The average velocity against all walls at once, leaving the last of them by at least `leave`.
+void slideAlong(ParticleStep& step, Walls& walls, int last, double leave, Vec3d& average)
+{
+    for (int i = 0; i < walls.count(); ++i) {
+        walls[i].velocity = step.drift(walls[i].collider);
+        walls[i].leave = i == last ? leave : 0.0;
+    }
+    std::array<Vec3d, Walls::kMost> changes;
+    if (walls.answer(average, changes)) return;
+    // Between parallel walls: against the last of them at least.
+    const double missing = leave - (average - walls[last].velocity).dot(walls[last].normal);
+    average += std::max(0.0, missing) * walls[last].normal;
+}
+
+// The same of the end velocity, whose changes the colliders take.
+void stopAgainst(ParticleStep& step, Walls& walls, const Touch& touch)
+{
+    const Vec3d at = step.contactPoint(touch);
+    for (int i = 0; i < walls.count(); ++i) {
+        walls[i].velocity = step.surfaceVelocity(walls[i].collider, at);
+        walls[i].leave = 0.0;
+    }
+    std::array<Vec3d, Walls::kMost> changes;
+    if (!walls.answer(step.endVelocity, changes)) {
+        step.endVelocity = step.collided(step.endVelocity, touch, 0.0);
+        return;
+    }
+    for (int i = 0; i < walls.count(); ++i) step.react(walls[i].collider, at, changes[std::size_t(i)]);
+}
+
 // These schemes go on from the average velocity as if the particle had it at the end: the collider answers for the
 // difference too, or momentum would be lost.
 void answerAverage(ParticleStep& step, const Touch& touch)
@@ -37,17 +69,51 @@ void answerAverage(ParticleStep& step, const Touch& touch)
     step.endVelocity = step.averageVelocity();
 }
 
+// Undoes responses: the collider gives back what it took.
+void goBack(ParticleStep& step, const Touch& touch, const Vec3d& average)
+{
+    step.react(touch.collider, step.contactPoint(touch), average - step.endVelocity);
+    step.endVelocity = average;
+    step.candidate = step.start + step.options.dt * average;
+}
+
+// Responses of the average velocity until it is outside, the first with `share` of the restitution. What moves it out
+// of a curved surface is no velocity: nobody gave it.
+Touch bounceRepeatedly(ParticleStep& step, Touch touch, double share, std::size_t& last)
+{
+    Vec3d push = Vec3d::Zero();
+    for (int i = 0; i < kMaxContacts && touch.touching && touch.hasNormal; ++i) {
+        last = touch.collider;
+        const Vec3d before = step.endVelocity;
+        step.endVelocity = step.collided(before, touch, share * step.colliders[last].restitution);
+        share *= kRepeatedBounce;
+        if (step.endVelocity == before) push += step.pushOut(touch.depth) * touch.normal;
+        step.candidate = step.start + step.options.dt * step.endVelocity + push;
+        touch = step.look();
+    }
+    return touch;
+}
+
 } // namespace
 
 Touch rest(ParticleStep& step, Touch touch)
 {
     Vec3d average = step.averageVelocity();
+    Walls walls;
     for (int i = 0; i < kMaxContacts && touch.touching && touch.hasNormal; ++i) {
-        const bool approached = (average - step.drift(touch.collider)).dot(touch.normal) < 0.0;
-        average = step.slid(average, touch, 0.0);
-        step.endVelocity = step.collided(step.endVelocity, touch, 0.0);
-        // Nothing approaches any more and still it is inside: the surface curves. Only then is it moved out.
-        if (!approached || i > 0) average += step.pushOut(touch.depth) / step.options.dt * touch.normal;
+        bool known = false;
+        const int wall = walls.add(touch.normal, touch.collider, step.colliders[touch.collider].friction, known);
+        const double leaving = (average - step.drift(touch.collider)).dot(touch.normal);
+        // Nothing approaches any more and still it is inside, or again: the surface curves. Only then is it moved out.
+        const bool push = !(leaving < 0.0) || known;
+        const double out = push ? step.pushOut(touch.depth) / step.options.dt : 0.0;
+        if (walls.count() == 1) {
+            average = step.slid(average, touch, 0.0) + out * touch.normal;
+            step.endVelocity = step.collided(step.endVelocity, touch, 0.0);
+        } else {
+            slideAlong(step, walls, wall, push ? std::max(0.0, leaving) + out : 0.0, average);
+            stopAgainst(step, walls, touch);
+        }
         step.candidate = step.start + step.options.dt * average;
         touch = step.look();
     }
@@ -64,38 +130,34 @@ void collideContact(ParticleStep& step, Touch touch)
 
 void iterate(ParticleStep& step, Touch touch)
 {
-    Vec3d average = step.averageVelocity();
+    const Touch first = touch;
+    const Vec3d before = step.averageVelocity();
     answerAverage(step, touch);
     std::size_t last = touch.collider;
-    double share = 1.0;
-    for (int i = 0; i < kMaxContacts && touch.touching && touch.hasNormal; ++i) {
-        last = touch.collider;
-        const double restitution = share * step.colliders[last].restitution;
-        share *= kRepeatedBounce;
-        const Vec3d before = average;
-        average = step.collided(average, touch, restitution);
-        Vec3d moved = average;
-        if (average == before) moved += step.pushOut(touch.depth) / step.options.dt * touch.normal;
-        step.candidate = step.start + step.options.dt * moved;
-        step.endVelocity = average;
-        average = moved;
-        touch = step.look();
+    // A bounce may lift it by more than its speed pays for: then without one.
+    for (const double start : {1.0, 0.0}) {
+        touch = bounceRepeatedly(step, first, start, last);
+        if (!touch.touching && step.paysForItsHeight(last)) return;
+        goBack(step, first, before);
     }
-    if (touch.touching || !step.paysForItsHeight(last)) step.hold(touch.touching ? touch.collider : last);
+    step.hold(touch.touching ? touch.collider : last);
 }
 
 void once(ParticleStep& step, const Touch& touch)
 {
-    if (!touch.hasNormal) {
-        step.hold(touch.collider);
-        return;
-    }
-    const Vec3d average = step.averageVelocity();
+    const Vec3d before = step.averageVelocity();
     answerAverage(step, touch);
-    step.endVelocity = step.collided(average, touch, step.colliders[touch.collider].restitution);
-    step.candidate = step.start + step.options.dt * step.endVelocity;
-    if (!step.paysForItsHeight(touch.collider)) step.hold(touch.collider);
-    step.penetrates();
+    for (const double share : {1.0, 0.0}) {
+        if (!touch.hasNormal) break;
+        step.endVelocity = step.collided(before, touch, share * step.colliders[touch.collider].restitution);
+        step.candidate = step.start + step.options.dt * step.endVelocity;
+        if (step.paysForItsHeight(touch.collider)) {
+            step.penetrates();
+            return;
+        }
+        goBack(step, touch, before);
+    }
+    step.hold(touch.collider);
 }
 
 } // namespace vdbounce

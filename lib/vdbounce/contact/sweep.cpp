@@ -43,9 +43,11 @@ public:
         if (!placement_.moves) return 1;
         const double angle = (placement_.end.rotation - placement_.begin.rotation).norm() / std::sqrt(2.0);
         if (!(angle > 0.0)) return 1;
-        const double way = (to_ - from_).norm();
-        const double arm =
-            std::max((from_ - placement_.velocity.centre).norm(), (to_ - placement_.velocity.centre).norm());
+        // Relative to the centre that it turns around, which goes straight from its place at the beginning to that now.
+        const Vec3d centre = placement_.velocity.centre;
+        const Vec3d first = placement_.begin.toWorld(placement_.end.toLocal(centre));
+        const double way = ((to_ - from_) - (centre - first)).norm();
+        const double arm = std::max((from_ - first).norm(), (to_ - centre).norm());
         // A curve of acceleration a is within a/8 of its chord over a unit of time.
         const double deviation = (angle * angle * arm + 2.0 * angle * way) / 8.0;
         return int(std::clamp(std::ceil(std::sqrt(deviation / sagitta)), 1.0, kMostPieces));
