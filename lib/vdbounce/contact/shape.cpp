@@ -98,16 +98,23 @@ Nearness nearnessOf(const Shape& shape, const Vec3d& local, double radius, doubl
     return std::visit([&](const auto& form) { return nearness(form, local, radius, share); }, shape);
 }
 
-bool outwardNormal(const Shape& shape, const Vec3d& local, double share, Vec3d& normal)
+bool outwardNormalAgainst(const Shape& shape, const Vec3d& local, double share, const Vec3d& direction, Vec3d& normal)
 {
     const Vec3d gradient = std::visit([&](const auto& form) { return gradientOf(form, local, share); }, shape);
     const Vec3d slope = std::visit([&](const auto& form) { return slopeOf(form, local, share); }, shape);
     const bool pointsIn = gradient.dot(slope) < 0.0;
-    const Vec3d& direction = gradient.norm() > kSmallestGradient && !pointsIn ? gradient : slope;
-    const double length = direction.norm();
+    const bool facesAway = gradient.dot(direction) > 0.0 && slope.dot(direction) < 0.0;
+    const bool trusted = gradient.norm() > kSmallestGradient && !pointsIn && !facesAway;
+    const Vec3d& chosen = trusted ? gradient : slope;
+    const double length = chosen.norm();
     if (!(length > kSmallestGradient)) return false;
-    normal = direction / length;
+    normal = chosen / length;
     return true;
+}
+
+bool outwardNormal(const Shape& shape, const Vec3d& local, double share, Vec3d& normal)
+{
+    return outwardNormalAgainst(shape, local, share, Vec3d::Zero(), normal);
 }
 
 bool nearestOutsideOf(const Shape& shape, const Vec3d& local, Vec3d& way)

@@ -48,6 +48,10 @@ Nearness nearnessOf(const Shape& shape, const Vec3d& local, double radius, doubl
 /// tells a direction, which is deep inside or outside a narrow band and where they cancel out.
 bool outwardNormal(const Shape& shape, const Vec3d& local, double share, Vec3d& normal);
 
+/// The same where something arrives in `direction`: also the derivative where the central differences, which round off
+/// edges, say that it leaves.
+bool outwardNormalAgainst(const Shape& shape, const Vec3d& local, double share, const Vec3d& direction, Vec3d& normal);
+
 /// The vector to the nearest place known to be outside. False where none is known.
 bool nearestOutsideOf(const Shape& shape, const Vec3d& local, Vec3d& way);
 

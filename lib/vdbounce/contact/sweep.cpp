@@ -21,6 +21,9 @@ constexpr double kMostStrides = 1e5;
 // Halvings of a bracket that is a stride long: to a ten-millionth of it.
 constexpr int kHalvings = 24;
 
+// The share of a step over which a path's direction is taken.
+constexpr double kDirectionShare = 1e-3;
+
 using FieldPtr = std::shared_ptr<const DistanceField>;
 
 // A particle's way in the frame of one collider.
@@ -128,6 +131,21 @@ bool meetsBall(const BoundingBall& ball, const Placement& placement, const Vec3d
     return (placement.ballCentre - from - along * way).norm() <= ball.radius + radius + placement.reach;
 }
 
+// Place and normal of a hit.
+void describeHit(const PlacedColliders& colliders, const RelativePath& path, const Vec3d& from, const Vec3d& to,
+                 PathHit& hit)
+{
+    const Placement& placement = colliders.placement(hit.collider);
+    hit.position = from + hit.when * (to - from);
+    const double share = placement.beginShare + hit.when * (placement.endShare - placement.beginShare);
+    // The way that it takes there; a share of the step before, as the path may curve.
+    const double before = std::max(0.0, hit.when - kDirectionShare);
+    const Vec3d direction = path.at(before + kDirectionShare) - path.at(before);
+    const Vec3d local = path.at(hit.when);
+    hit.hasNormal = outwardNormalAgainst(colliders[hit.collider].shape, local, share, direction, hit.normal);
+    if (hit.hasNormal && placement.moves) hit.normal = placement.between(hit.when).vectorToWorld(hit.normal);
+}
+
 } // namespace
 
 PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec3d& to, double radius)
@@ -149,14 +167,7 @@ PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec
         result.collider = i;
     }
     if (!result.hit) return result;
-    const Placement& placement = colliders.placement(result.collider);
-    result.position = from + result.when * (to - from);
-    const double share = placement.beginShare + result.when * (placement.endShare - placement.beginShare);
-    const Pose pose = placement.between(result.when);
-    result.hasNormal =
-        outwardNormal(colliders[result.collider].shape,
-                      placement.moves ? pose.toLocal(result.position) : result.position, share, result.normal);
-    if (result.hasNormal && placement.moves) result.normal = pose.vectorToWorld(result.normal);
+    describeHit(colliders, RelativePath(colliders.placement(result.collider), from, to), from, to, result);
     return result;
 }
 
