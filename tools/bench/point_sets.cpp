@@ -66,7 +66,7 @@ std::vector<Vec3d> pointsInBox(const DistanceField& field, std::size_t count)
     return points;
 }
 
-std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, std::size_t count)
+std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, double distance, std::size_t count)
 {
     std::vector<Vec3d> points(count);
     forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
@@ -75,7 +75,7 @@ std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, std
         do {
             if (++tries > kMostTries) refuse("room around it");
             points[i] = box.min + random.uniformVector().cwiseProduct(box.size());
-        } while (!(field.phi(points[i]) > 0.0));
+        } while (!(field.phi(points[i]) > distance));
     });
     return points;
 }

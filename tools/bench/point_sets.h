@@ -15,8 +15,8 @@ std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t cou
 /// `count` points anywhere in the field's box, in random order.
 std::vector<Vec3d> pointsInBox(const DistanceField& field, std::size_t count);
 
-/// `count` points of a world box where phi > 0, in random order.
-std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, std::size_t count);
+/// `count` points of a world box where phi > `distance` (world units), in random order.
+std::vector<Vec3d> pointsOutside(const DistanceField& field, const Box& box, double distance, std::size_t count);
 
 /// The same points, those of one leaf after those of the other.
 std::vector<Vec3d> inLeafOrder(const DistanceField& field, const std::vector<Vec3d>& points);

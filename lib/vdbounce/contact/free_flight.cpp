@@ -45,50 +45,50 @@ HWY_INLINE M stepOf(const FlightPlan& plan, double reach, const Flock& now, Floc
     return hn::Lt(hn::Add(gone, hn::Set(d, plan.range)), now.clearance);
 }
 
-// Once one of them may touch something, the others go on without it.
-HWY_INLINE void flyOn(const FlightPlan& plan, int step, Flock& flock, int* done)
+HWY_INLINE void blend(M mask, const Flock& yes, Flock& flock)
 {
-    const Doubles d;
-    Flock next;
-    M flying = hn::FirstN(d, hn::Lanes(d));
-    V count = hn::Set(d, double(step));
-    for (; step < plan.steps; ++step) {
-        flying = hn::And(flying, stepOf(plan, plan.reach[step], flock, next));
-        if (hn::AllFalse(d, flying)) break;
-        for (int axis = 0; axis < 3; ++axis) {
-            flock.x[axis] = hn::IfThenElse(flying, next.x[axis], flock.x[axis]);
-            flock.v[axis] = hn::IfThenElse(flying, next.v[axis], flock.v[axis]);
-        }
-        flock.clearance = hn::IfThenElse(flying, next.clearance, flock.clearance);
-        count = hn::IfThenElse(flying, hn::Set(d, double(step + 1)), count);
+    for (int axis = 0; axis < 3; ++axis) {
+        flock.x[axis] = hn::IfThenElse(mask, yes.x[axis], flock.x[axis]);
+        flock.v[axis] = hn::IfThenElse(mask, yes.v[axis], flock.v[axis]);
     }
-    HWY_ALIGN double counts[8];
-    hn::Store(count, d, counts);
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i) done[i] = int(counts[i]);
+    flock.clearance = hn::IfThenElse(mask, yes.clearance, flock.clearance);
 }
 
+// One that may touch something is put aside as it is; its lane flies on with all the clearance there is, to no
+// purpose, but without a mask that the next step would have to wait for.
 void flyWhole(const FlightPlan& plan, double* x, double* v, double* clearance, int* done)
 {
     const Doubles d;
+    const V endless = hn::Inf(d);
     Flock flock;
-    Flock next;
     hn::LoadInterleaved3(d, x, flock.x[0], flock.x[1], flock.x[2]);
     hn::LoadInterleaved3(d, v, flock.v[0], flock.v[1], flock.v[2]);
     flock.clearance = hn::LoadU(d, clearance);
-    int step = 0;
-    // A branch rather than a mask: its guess lets the next step begin before this one's length is known.
-    while (step < plan.steps && hn::AllTrue(d, stepOf(plan, plan.reach[step], flock, next))) {
+    Flock aside = flock;
+    M landed = hn::Lt(flock.clearance, hn::Zero(d));
+    flock.clearance = hn::IfThenElse(landed, endless, flock.clearance);
+    V count = hn::Zero(d);
+    for (int step = 0; step < plan.steps; ++step) {
+        Flock next;
+        const M flies = stepOf(plan, plan.reach[step], flock, next);
+        if (HWY_UNLIKELY(!hn::AllTrue(d, hn::Or(flies, landed)))) {
+            const M lands = hn::AndNot(flies, hn::Not(landed));
+            blend(lands, flock, aside);
+            count = hn::IfThenElse(lands, hn::Set(d, double(step)), count);
+            landed = hn::Or(landed, lands);
+            if (hn::AllTrue(d, landed)) break;
+            next.clearance = hn::IfThenElse(landed, endless, next.clearance);
+        }
         flock = next;
-        ++step;
     }
-    if (step == 0 && hn::AllTrue(d, hn::Lt(flock.clearance, hn::Zero(d)))) {
-        for (std::size_t i = 0; i < hn::Lanes(d); ++i) done[i] = 0;
-        return;
-    }
-    flyOn(plan, step, flock, done);
+    count = hn::IfThenElse(landed, count, hn::Set(d, double(plan.steps)));
+    blend(landed, aside, flock);
     hn::StoreInterleaved3(flock.x[0], flock.x[1], flock.x[2], d, x);
     hn::StoreInterleaved3(flock.v[0], flock.v[1], flock.v[2], d, v);
     hn::StoreU(flock.clearance, d, clearance);
+    HWY_ALIGN double counts[8];
+    hn::Store(count, d, counts);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) done[i] = int(counts[i]);
 }
 
 void flyAll(const FlightPlan& plan, double* x, double* v, double* clearance, std::size_t count, int* done)

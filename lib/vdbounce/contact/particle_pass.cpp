@@ -2,10 +2,8 @@
 #include "vdbounce/contact/particle_pass.h"
 
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/contact/free_flight.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace vdbounce {
@@ -115,43 +113,6 @@ void ParticlePass::settleAll()
         store(i, particle);
     });
     settled_ = true;
-}
-
-// Each particle through all steps before the next.
-StepTally ParticlePass::advanceApart(int steps, Progress& progress)
-{
-    std::vector<PlacedColliders> placed;
-    const bool still = colliders_->still();
-    for (int s = 0; s < (still ? 1 : steps); ++s)
-        placed.push_back(placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt));
-    std::vector<double> reach(static_cast<std::size_t>(steps), 0.0);
-    for (std::size_t s = 0; s < placed.size(); ++s) reach[s] = placed[s].reach();
-    FlightPlan plan = flightPlan(options_.step);
-    plan.reach = reach.data();
-    plan.steps = steps;
-
-    ProgressCounter counter(progress, particles_.size());
-    return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
-        throwIfStopped(progress);
-        StepTally tally(colliders_->size());
-        std::array<int, kParticlesPerBlock> done;
-        const std::size_t begin = range.begin;
-        flyFreely(plan, &particles_.position[begin], &particles_.velocity[begin], &clearance_[begin], range.end - begin,
-                  done.data());
-        for (std::size_t i = begin; i < range.end; ++i) {
-            if (skipped_[i] != 0) continue;
-            const int flown = done[i - begin];
-            tally.free += static_cast<std::uint64_t>(flown);
-            if (flown > 0 && touching_[i] != 0) touching_[i] = 0;
-            if (flown == steps) continue;
-            MovingParticle particle = load(i);
-            for (int s = flown; s < steps && !particle.deleted; ++s)
-                step(particle, placed[still ? 0 : std::size_t(s)], options_.step, tally);
-            store(i, particle);
-        }
-        counter.add(range.end - range.begin);
-        return tally;
-    });
 }
 
 std::uint64_t ParticlePass::removeDeleted()

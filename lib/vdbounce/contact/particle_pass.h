@@ -62,6 +62,9 @@ public:
     const std::vector<std::optional<RigidBody>>& bodies() const { return bodies_; }
 
 private:
+    struct Apart;
+    class ApartBlock;
+
     double timeOf(std::uint64_t step) const { return double(step) * options_.step.dt; }
     MovingParticle load(std::size_t i);
     void store(std::size_t i, const MovingParticle& particle);

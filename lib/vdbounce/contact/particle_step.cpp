@@ -22,6 +22,13 @@ constexpr double kSweepFromVx = 0.5;
 
 } // namespace
 
+bool sweepIsDue(Sweep sweep, double way, double clear, double voxel)
+{
+    if (sweep == Sweep::Never) return false;
+    if (sweep == Sweep::Auto && way <= kSweepFromVx * voxel) return false;
+    return way > clear;
+}
+
 ParticleStep::ParticleStep(MovingParticle& p, const PlacedColliders& c, const StepOptions& o, StepTally& t)
     : particle(p), colliders(c), options(o), tally(t), start(p.position), velocity(p.velocity)
 {
@@ -74,10 +81,8 @@ Touch ParticleStep::look()
 
 bool ParticleStep::mayHaveTouchedOnTheWay() const
 {
-    if (options.sweep == Sweep::Never) return false;
     const double way = (candidate - start).norm() + colliders.reach();
-    if (options.sweep == Sweep::Auto && way <= kSweepFromVx * colliders.smallestVoxel()) return false;
-    return way > particle.clearance + probe.clearance;
+    return sweepIsDue(options.sweep, way, particle.clearance + probe.clearance, colliders.smallestVoxel());
 }
 
 double ParticleStep::shortLength() const

@@ -55,18 +55,26 @@ Nearness nearness(const DeformingShape& shape, const Vec3d& local, double radius
     return {shape.field->phi(local, share), shape.field->clearance(local, radius)};
 }
 
-Vec3d gradientOf(const PlaneField& plane, const Vec3d&, double) { return plane.normal(); }
-Vec3d gradientOf(const FieldPtr& field, const Vec3d& local, double) { return field->sample(local).gradient; }
-Vec3d gradientOf(const DeformingShape& shape, const Vec3d& local, double share)
-{
-    return shape.field->sample(local, share).gradient;
-}
+// The gradient by central differences, and the derivative of phi as it is interpolated.
+struct Gradients {
+    Vec3d central;
+    Vec3d slope;
+};
 
-Vec3d slopeOf(const PlaneField& plane, const Vec3d&, double) { return plane.normal(); }
-Vec3d slopeOf(const FieldPtr& field, const Vec3d& local, double) { return field->slope(local); }
-Vec3d slopeOf(const DeformingShape& shape, const Vec3d& local, double share)
+Gradients gradientsOf(const PlaneField& plane, const Vec3d&, double) { return {plane.normal(), plane.normal()}; }
+Gradients gradientsOf(const FieldPtr& field, const Vec3d& local, double)
 {
-    return (1.0 - share) * shape.field->from().slope(local) + share * shape.field->to().slope(local);
+    Gradients gradients;
+    field->gradients(local, gradients.central, gradients.slope);
+    return gradients;
+}
+Gradients gradientsOf(const DeformingShape& shape, const Vec3d& local, double share)
+{
+    Gradients from;
+    Gradients to;
+    shape.field->from().gradients(local, from.central, from.slope);
+    shape.field->to().gradients(local, to.central, to.slope);
+    return {(1.0 - share) * from.central + share * to.central, (1.0 - share) * from.slope + share * to.slope};
 }
 
 // Of a deforming shape the one that it is becoming.
@@ -100,8 +108,8 @@ Nearness nearnessOf(const Shape& shape, const Vec3d& local, double radius, doubl
 
 bool outwardNormalAgainst(const Shape& shape, const Vec3d& local, double share, const Vec3d& direction, Vec3d& normal)
 {
-    const Vec3d gradient = std::visit([&](const auto& form) { return gradientOf(form, local, share); }, shape);
-    const Vec3d slope = std::visit([&](const auto& form) { return slopeOf(form, local, share); }, shape);
+    const auto [gradient, slope] =
+        std::visit([&](const auto& form) { return gradientsOf(form, local, share); }, shape);
     const bool pointsIn = gradient.dot(slope) < 0.0;
     const bool facesAway = gradient.dot(direction) > 0.0 && slope.dot(direction) < 0.0;
     const bool trusted = gradient.norm() > kSmallestGradient && !pointsIn && !facesAway;

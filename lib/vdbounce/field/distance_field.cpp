@@ -162,6 +162,33 @@ Vec3d DistanceField::slope(const Vec3d& world) const
     return sample(world).gradient;
 }
 
+void DistanceField::gradients(const Vec3d& world, Vec3d& gradient, Vec3d& ownSlope) const
+{
+    const Vec3d index = transform_.toIndex(world);
+    if (!indexBox_.contains(index)) {
+        gradient = sample(world).gradient;
+        ownSlope = gradient;
+        return;
+    }
+    if (options_.lookup != Lookup::Trilinear || options_.normal != Normal::Central) {
+        gradient = sample(world).gradient;
+        ownSlope = slope(world);
+        return;
+    }
+    struct Both {
+        Vec3d gradient = Vec3d::Zero();
+        Vec3d slope = Vec3d::Zero();
+        explicit Both(double) {} // of one value everywhere
+        Both(const Vec3d& g, const Vec3d& s) : gradient(g), slope(s) {}
+    };
+    const Both both = inCell(Cell(index), [](const Neighbourhood& near, const Vec3d& at) {
+        return Both(trilinearWithGradient(near.values, near.strideX, near.strideY, at).gradient,
+                    trilinearWithCellGradient(near.cellValues(), near.strideX, near.strideY, at).gradient);
+    });
+    gradient = transform_.gradientToWorld(both.gradient);
+    ownSlope = transform_.gradientToWorld(both.slope);
+}
+
 // The part of a world vector that points along the face or edge of the box on which `closest` lies; `offset` leads from
 // there to the point that it is closest to, so it is perpendicular to both.
 Vec3d DistanceField::alongBox(const Vec3d& closest, const Vec3d& offset, const Vec3d& vector) const

@@ -49,6 +49,9 @@ public:
     /// central differences it reaches no further than the 8 voxels around the point. World space.
     Vec3d slope(const Vec3d& world) const;
 
+    /// sample()'s gradient, and slope(), for little more than one of them.
+    void gradients(const Vec3d& world, Vec3d& gradient, Vec3d& slope) const;
+
     /// lower <= true distance <= upper, provided that the grid's voxels hold true distances (active ones that are
     /// clamped to a band do not) and that the surface lies in the grid's box. In the band within a voxel's diagonal of
     /// the truth, elsewhere in the box within two and a half; outside sqrt(A^2+B^2) and A+|B|, with the bounds at the

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/contact/clearance_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vdbounce {
+namespace {
+
+// How far phi in single precision may be off, as a share of itself and a voxel's diagonal: samplePoints() promises 16
+// units in the last place of a voxel's value nearby, this is a hundred.
+constexpr double kSinglePrecision = 6e-6;
+
+} // namespace
+
+bool ClearanceBatch::answers(const ColliderSet& colliders)
+{
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        if (std::holds_alternative<DeformingShape>(colliders[i].shape)) return false;
+    }
+    return true;
+}
+
+void ClearanceBatch::compute(std::vector<Candidate>& candidates)
+{
+    for (Candidate& candidate : candidates) candidate.clearance = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < colliders_.size(); ++c) {
+        if (const auto* plane = std::get_if<PlaneField>(&colliders_[c].shape)) {
+            for (Candidate& candidate : candidates) {
+                const Placement& placement = candidate.colliders->placement(c);
+                const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
+                candidate.clearance = std::min(candidate.clearance, std::max(0.0, plane->phi(local) - candidate.radius));
+            }
+        } else {
+            const auto& field = std::get<std::shared_ptr<const DistanceField>>(colliders_[c].shape);
+            if (!field->empty()) lookUp(c, *field, candidates);
+        }
+    }
+}
+
+void ClearanceBatch::lookUp(std::size_t collider, const DistanceField& field, std::vector<Candidate>& candidates)
+{
+    asked_.clear();
+    points_.clear();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        Candidate& candidate = candidates[i];
+        if (!(candidate.clearance > 0.0)) continue;
+        const Placement& placement = candidate.colliders->placement(collider);
+        const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
+        if (!field.clipped()) {
+            // What is outside of the box is at least as far from the surface.
+            const double away = std::sqrt(distanceSquared(field.worldBox(), local)) - candidate.radius;
+            if (away > 0.0 && (away >= candidate.enough || away >= candidate.clearance)) {
+                candidate.clearance = std::min(candidate.clearance, away);
+                continue;
+            }
+        }
+        asked_.push_back(std::uint32_t(i));
+        points_.push_back(local);
+    }
+    samples_.resize(points_.size());
+    samplePoints(field, points_.data(), points_.size(), samples_.data());
+    const double diagonal = field.transform().voxelDiagonal();
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+        Candidate& candidate = candidates[asked_[k]];
+        const double phi = double(samples_[k].phi);
+        const double least = phi - kSinglePrecision * (std::abs(phi) + diagonal);
+        const double free = (field.freeDistance(points_[k], least) - candidate.radius) / field.lipschitz();
+        candidate.clearance = std::min(candidate.clearance, std::max(0.0, free));
+    }
+}
+
+} // namespace vdbounce
