@@ -77,9 +77,9 @@ private:
     {
         if (pass_.clearance_[i] <= 0.0) return;
         const int before = step;
-        while (step < apart_.plan.steps && flyFreely(apart_.plan, apart_.reach[std::size_t(step)],
-                                                     pass_.particles_.position[i], pass_.particles_.velocity[i],
-                                                     pass_.clearance_[i]))
+        while (step < apart_.plan.steps &&
+               flyFreely(apart_.plan, apart_.reach[std::size_t(step)], pass_.particles_.position[i],
+                         pass_.particles_.velocity[i], pass_.clearance_[i]))
             ++step;
         tally_.free += static_cast<std::uint64_t>(step - before);
         if (step > before) pass_.touching_[i] = 0;
@@ -95,7 +95,8 @@ private:
             const Vec3d& v = pass_.particles_.velocity[i];
             const Vec3d& x = pass_.particles_.position[i];
             candidate.position = x + apart_.plan.halfStep * (v + (v + apart_.plan.speedUp));
-            candidate.radius = pass_.particles_.radius.empty() ? pass_.options_.defaults.radius : pass_.particles_.radius[i];
+            candidate.radius =
+                pass_.particles_.radius.empty() ? pass_.options_.defaults.radius : pass_.particles_.radius[i];
             candidate.colliders = &apart_.placedIn(done_[i - range_.begin]);
             candidate.enough = kStepsAhead * ((candidate.position - x).norm() + candidate.colliders->reach());
         }
@@ -107,10 +108,12 @@ private:
     {
         const StepOptions& options = pass_.options_.step;
         const bool moves = pass_.particles_.stuckTo.empty() || pass_.particles_.stuckTo[i] == MovingParticle::kNotStuck;
-        if (!(candidate.clearance > 0.0) || pass_.inside_[i] != 0 || !moves || options.repulsion.range > 0.0) return false;
+        if (!(candidate.clearance > 0.0) || pass_.inside_[i] != 0 || !moves || options.repulsion.range > 0.0)
+            return false;
         const double way = (candidate.position - pass_.particles_.position[i]).norm() + apart_.reach[std::size_t(step)];
         if (!std::isfinite(way)) return false;
-        if (sweepIsDue(options.sweep, way, pass_.clearance_[i] + candidate.clearance, pass_.colliders_->smallestVoxel()))
+        if (sweepIsDue(options.sweep, way, pass_.clearance_[i] + candidate.clearance,
+                       pass_.colliders_->smallestVoxel()))
             return false;
         ++tally_.near;
         pass_.particles_.position[i] = candidate.position;

@@ -30,7 +30,8 @@ void ClearanceBatch::compute(std::vector<Candidate>& candidates)
             for (Candidate& candidate : candidates) {
                 const Placement& placement = candidate.colliders->placement(c);
                 const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
-                candidate.clearance = std::min(candidate.clearance, std::max(0.0, plane->phi(local) - candidate.radius));
+                candidate.clearance =
+                    std::min(candidate.clearance, std::max(0.0, plane->phi(local) - candidate.radius));
             }
         } else {
             const auto& field = std::get<std::shared_ptr<const DistanceField>>(colliders_[c].shape);
@@ -60,14 +61,13 @@ void ClearanceBatch::lookUp(std::size_t collider, const DistanceField& field, st
         points_.push_back(local);
     }
     samples_.resize(points_.size());
-    samplePoints(field, points_.data(), points_.size(), samples_.data());
+    samplePoints(field, points_.data(), points_.size(), samples_.data(), Normal::Analytic);
     const double diagonal = field.transform().voxelDiagonal();
     for (std::size_t k = 0; k < asked_.size(); ++k) {
         Candidate& candidate = candidates[asked_[k]];
         const double phi = double(samples_[k].phi);
         const double least = phi - kSinglePrecision * (std::abs(phi) + diagonal);
-        const double free = (field.freeDistance(points_[k], least) - candidate.radius) / field.lipschitz();
-        candidate.clearance = std::min(candidate.clearance, std::max(0.0, free));
+        candidate.clearance = std::min(candidate.clearance, field.clearance(points_[k], least, candidate.radius));
     }
 }
 

@@ -23,8 +23,8 @@ struct Touch {
     double when = 1.0;  // share of the step
 };
 
-/// Whether a way, with what colliders move meanwhile, is to be searched, when the clearances at both of its ends add up to
-/// `clear`. `voxel` is the smallest of all.
+/// Whether a way, with what colliders move meanwhile, is to be searched, when the clearances at both of its ends add up
+/// to `clear`. `voxel` is the smallest of all.
 bool sweepIsDue(Sweep sweep, double way, double clear, double voxel);
 
 class ParticleStep {

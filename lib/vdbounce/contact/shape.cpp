@@ -47,7 +47,7 @@ Nearness nearness(const FieldPtr& field, const Vec3d& local, double radius, doub
 {
     if (field->empty()) return {kInfinity, kInfinity};
     const double phi = field->phi(local);
-    return {phi, std::max(0.0, field->freeDistance(local, phi) - radius) / field->lipschitz()};
+    return {phi, field->clearance(local, phi, radius)};
 }
 Nearness nearness(const DeformingShape& shape, const Vec3d& local, double radius, double share)
 {
@@ -108,8 +108,7 @@ Nearness nearnessOf(const Shape& shape, const Vec3d& local, double radius, doubl
 
 bool outwardNormalAgainst(const Shape& shape, const Vec3d& local, double share, const Vec3d& direction, Vec3d& normal)
 {
-    const auto [gradient, slope] =
-        std::visit([&](const auto& form) { return gradientsOf(form, local, share); }, shape);
+    const auto [gradient, slope] = std::visit([&](const auto& form) { return gradientsOf(form, local, share); }, shape);
     const bool pointsIn = gradient.dot(slope) < 0.0;
     const bool facesAway = gradient.dot(direction) > 0.0 && slope.dot(direction) < 0.0;
     const bool trusted = gradient.norm() > kSmallestGradient && !pointsIn && !facesAway;

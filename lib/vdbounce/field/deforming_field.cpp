@@ -13,7 +13,7 @@ constexpr double kSmallestGradient = 1e-3;
 double clearanceTo(const DistanceField& field, const Vec3d& world, double radius)
 {
     if (field.empty()) return std::numeric_limits<double>::infinity();
-    return std::max(0.0, field.freeDistance(world, field.phi(world)) - radius) / field.lipschitz();
+    return field.clearance(world, field.phi(world), radius);
 }
 
 } // namespace

@@ -11,6 +11,9 @@
 namespace vdbounce {
 namespace {
 
+// phi from this share of the background on may be the background, looked up in single precision.
+constexpr double kBeyondBand = 0.999;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
@@ -134,6 +137,18 @@ double DistanceField::freeDistance(const Vec3d& world, double phi) const
     const Vec3d index = transform_.toIndex(world);
     if (indexBox_.contains(index)) return phi;
     return std::max(0.0, phiInBox(closestPointInBox(indexBox_, index, transform_)) - jump_);
+}
+
+double DistanceField::clearance(const Vec3d& world, double phi, double radius) const
+{
+    const double free = freeDistance(world, phi) - radius;
+    if (!(free > 0.0)) return 0.0;
+    const double fromPhi = free / lipschitz_;
+    if (clipped_ || phi < kBeyondBand * background_) return fromPhi;
+    const Vec3d index = transform_.toIndex(world);
+    if (!indexBox_.contains(index)) return fromPhi;
+    // Where those leaves end phi is the background still.
+    return fromPhi + leafSide_ * leafDistances_.cellsBetween(Cell(index).voxel);
 }
 
 } // namespace vdbounce

@@ -18,6 +18,15 @@ constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 // along the two other axes sum up to 1.25 each without their signs.
 constexpr double kSplineSteepness = 1.5 * 1.25 * 1.25;
 
+// From one side of a leaf to the opposite, world units.
+double shortestWayAcross(const LinearTransform& transform)
+{
+    double steepest = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        steepest = std::max(steepest, transform.gradientToWorld(Vec3d::Unit(axis)).norm());
+    return BlockLayout::kLeafSide / steepest;
+}
+
 } // namespace
 
 DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& options) : options_(options)
@@ -31,6 +40,8 @@ DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& optio
     storageError_ = parts.storageError;
     lipschitz_ = parts.lipschitz;
     surface_ = std::move(parts.surface);
+    leafDistances_ = LeafDistances(blocks_, indexBox_, background_);
+    leafSide_ = shortestWayAcross(transform_);
     if (options.lookup == Lookup::Nearest) jump_ = lipschitz_ * transform_.voxelDiagonal();
     // The three components of the spline's gradient may be steepest each for another cell's sake.
     if (options.lookup == Lookup::Cubic)

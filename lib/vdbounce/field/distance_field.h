@@ -6,6 +6,7 @@
 #include "vdbounce/base/vector.h"
 #include "vdbounce/field/field_options.h"
 #include "vdbounce/field/leaf_blocks.h"
+#include "vdbounce/field/leaf_distances.h"
 #include "vdbounce/field/linear_transform.h"
 #include "vdbounce/field/stencil.h"
 #include "vdbounce/field/surface_tree.h"
@@ -74,6 +75,11 @@ public:
     /// jumps, and less a jump for Lookup::Nearest.
     double freeDistance(const Vec3d& world, double phi) const;
 
+    /// How far a particle at `world`, where phi is `phi`, can move in any direction without phi falling below its
+    /// radius: freeDistance() less the radius, over lipschitz(); beyond the band also what whole leaves lie between it
+    /// and the band. World units, >= 0.
+    double clearance(const Vec3d& world, double phi, double radius) const;
+
     const LinearTransform& transform() const { return transform_; }
     double voxelSize() const { return transform_.smallestVoxelSize(); }
     double background() const { return background_; }
@@ -102,7 +108,10 @@ public:
 
     const SurfaceTree& surface() const { return surface_; }
 
-    std::size_t memoryBytes() const { return blocks_.memoryBytes() + surface_.memoryBytes(); }
+    std::size_t memoryBytes() const
+    {
+        return blocks_.memoryBytes() + surface_.memoryBytes() + leafDistances_.memoryBytes();
+    }
 
 private:
     // The cell of a point: the voxel below it, and the point's place in between.
@@ -149,7 +158,9 @@ private:
     float interior_ = 0.0f;
     double storageError_ = 0.0;
     double lipschitz_ = 1.0;
-    double jump_ = 0.0; // of phi from voxel to voxel with Lookup::Nearest
+    LeafDistances leafDistances_;
+    double leafSide_ = 0.0; // the shortest way across a leaf, world units
+    double jump_ = 0.0;     // of phi from voxel to voxel with Lookup::Nearest
     FieldOptions options_;
     bool clipped_ = false;
 };

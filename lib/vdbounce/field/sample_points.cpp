@@ -112,11 +112,18 @@ void sampleInBlockOrder(const DistanceField& field, const VectorField& vectorFie
 
 void samplePoints(const DistanceField& field, const Vec3d* points, std::size_t count, PointSample* samples)
 {
+    samplePoints(field, points, count, samples, field.options().normal);
+}
+
+void samplePoints(const DistanceField& field, const Vec3d* points, std::size_t count, PointSample* samples,
+                  Normal normal)
+{
     if (!vectorCodeAnswers(field)) {
         forEachIndex(count, kPointsPerTask, [&](std::size_t i) { samples[i] = sampleOne(field, points[i]); });
         return;
     }
-    const VectorField vectorField(field);
+    VectorField vectorField(field);
+    if (vectorField.lookup == Lookup::Trilinear) vectorField.normal = normal;
     if (BlockOrder::pays(vectorField, field.blocks().blockCount(), points, count)) {
         sampleInBlockOrder(field, vectorField, points, count, samples);
     } else {
