@@ -12,8 +12,12 @@ ln -s "$1" bin/vdbounce
 PATH="$PWD/bin:$PATH"
 cp "$source/data/bunny.obj" .
 awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >commands.sh
-awk '/^```toml$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >scene.toml
+# The scenes are called as the text calls them, in this order.
+scenes=(scene.toml paddle.toml)
+for i in "${!scenes[@]}"; do
+    awk -v wanted="$i" '/^```toml$/ { on = (n++ == wanted); next } /^```$/ { on = 0 } on' "$source/README.md" >"${scenes[$i]}"
+    test -s "${scenes[$i]}"
+done
 test -s commands.sh
-test -s scene.toml
 bash -euxo pipefail commands.sh
 for picture in *.png; do test -s "$picture"; done

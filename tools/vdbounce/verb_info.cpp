@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/field/distance_field.h"
+#include "vdbounce/field/thin_features.h"
 #include "vdbounce/io/file_bytes.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/mesh_file.h"
@@ -36,12 +37,27 @@ std::string verdictOn(const LevelSetSummary& summary, const DistanceField& field
     return "fit to collide with";
 }
 
+Json thinJson(const ThinFeatures::Kind& kind)
+{
+    return {{"voxels", kind.voxels}, {"thinnest", kind.thinnest}, {"place", toJson(kind.place)}};
+}
+
+// What the voxels are too large for.
+std::string warningOf(const ThinFeatures::Kind& kind, const char* name, const char* consequence)
+{
+    if (kind.voxels == 0) return "";
+    return "; warning: " + grouped(kind.voxels) + (kind.voxels == 1 ? " voxel in " : " voxels in ") + name +
+           " about as thin as a voxel, the thinnest near " + vectorText(kind.place) + ": " + consequence +
+           ", smaller voxels would help";
+}
+
 Description describeLevelSet(const std::string& path, const std::string& gridName)
 {
     const LevelSetGrid grid = readLevelSet(path, gridName);
     const LevelSetSummary s = summarize(grid);
     const DistanceField field(grid);
     const std::string verdict = verdictOn(s, field);
+    const ThinFeatures thin = thinFeatures(field);
     Json json = {{"kind", "level set"},
                  {"name", s.name},
                  {"type", s.valueType},
@@ -54,11 +70,14 @@ Description describeLevelSet(const std::string& path, const std::string& gridNam
                  {"box_max", toJson(s.worldBox.max)},
                  {"clipped", field.clipped()},
                  {"steepest", field.lipschitz()},
+                 {"thin_walls", thinJson(thin.walls)},
+                 {"thin_gaps", thinJson(thin.gaps)},
                  {"verdict", verdict}};
     const std::string text = "level set '" + s.name + "' (" + s.valueType + "): voxel " + vectorText(s.voxelSize) +
                              ", half width " + rounded(s.halfWidthVx) + " voxels, " + grouped(s.activeVoxels) +
                              " active voxels, box " + vectorText(s.worldBox.min) + " to " + vectorText(s.worldBox.max) +
-                             "; " + verdict;
+                             "; " + verdict + warningOf(thin.walls, "walls or edges", "particles may pass") +
+                             warningOf(thin.gaps, "gaps", "particles may not pass");
     return {json, text};
 }
 

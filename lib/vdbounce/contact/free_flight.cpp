@@ -39,10 +39,11 @@ HWY_INLINE M stepOf(const FlightPlan& plan, double reach, const Flock& now, Floc
         move[axis] = hn::Sub(next.x[axis], now.x[axis]);
     }
     const V square = hn::Add(hn::Add(hn::Mul(move[0], move[0]), hn::Mul(move[1], move[1])), hn::Mul(move[2], move[2]));
-    const V gone = hn::Add(hn::Sqrt(square), hn::Set(d, reach));
     const V size = hn::Max(hn::Max(hn::Abs(next.x[0]), hn::Abs(next.x[1])), hn::Abs(next.x[2]));
-    next.clearance = hn::Sub(now.clearance, hn::Add(gone, hn::Mul(hn::Set(d, kClearanceRounding), size)));
-    return hn::Lt(hn::Add(gone, hn::Set(d, plan.range)), now.clearance);
+    const V spent =
+        hn::Add(hn::Add(hn::Sqrt(square), hn::Set(d, reach)), hn::Mul(hn::Set(d, kClearanceRounding), size));
+    next.clearance = hn::Sub(now.clearance, spent);
+    return hn::Lt(hn::Add(spent, hn::Set(d, plan.range)), now.clearance);
 }
 
 HWY_INLINE void blend(M mask, const Flock& yes, Flock& flock)

@@ -33,9 +33,10 @@ inline bool flyFreely(const FlightPlan& plan, double reach, Vec3d& position, Vec
     const Vec3d there = position + plan.halfStep * (velocity + after);
     const Vec3d move = there - position;
     const double way = std::sqrt((move.x() * move.x() + move.y() * move.y()) + move.z() * move.z());
-    if (!((way + reach) + plan.range < clearance)) return false;
     const double size = std::max(std::max(std::abs(there.x()), std::abs(there.y())), std::abs(there.z()));
-    clearance -= (way + reach) + kClearanceRounding * size;
+    const double spent = (way + reach) + kClearanceRounding * size;
+    if (!(spent + plan.range < clearance)) return false;
+    clearance -= spent;
     position = there;
     velocity = after;
     return true;

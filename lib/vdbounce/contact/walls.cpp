@@ -43,10 +43,11 @@ double Walls::missing(int i, const Vec3d& velocity) const
     return wall.leave - (velocity - wall.velocity).dot(wall.normal);
 }
 
-bool Walls::holds(const Vec3d& velocity) const
+// To the rounding of what the velocity was before: a velocity next to 0 may be the rest of larger ones.
+bool Walls::holds(const Vec3d& velocity, const Vec3d& before) const
 {
     for (int i = 0; i < count_; ++i) {
-        const double scale = velocity.norm() + (*this)[i].velocity.norm() + (*this)[i].leave;
+        const double scale = before.norm() + (*this)[i].velocity.norm() + (*this)[i].leave;
         if (missing(i, velocity) > kRounding * scale) return false;
     }
     return true;
@@ -62,7 +63,7 @@ bool Walls::answerOne(int i, const Vec3d& velocity, std::array<Vec3d, kMost>& ch
     const double slip = tangential.norm();
     const double lost = slip > 0.0 ? std::min(1.0, wall.friction * impulse / slip) : 0.0;
     changes[std::size_t(i)] = impulse * wall.normal - lost * tangential;
-    return holds(velocity + changes[std::size_t(i)]);
+    return holds(velocity + changes[std::size_t(i)], velocity);
 }
 
 bool Walls::answerTwo(int i, int j, const Vec3d& velocity, std::array<Vec3d, kMost>& changes) const
@@ -86,7 +87,7 @@ bool Walls::answerTwo(int i, int j, const Vec3d& velocity, std::array<Vec3d, kMo
     const double shareA = grip > 0.0 ? a.friction * impulseA / grip : 0.0;
     changes[std::size_t(i)] = impulseA * a.normal - shareA * lost * crease;
     changes[std::size_t(j)] = impulseB * b.normal - (grip > 0.0 ? (1.0 - shareA) * lost : 0.0) * crease;
-    return holds(velocity + changes[std::size_t(i)] + changes[std::size_t(j)]);
+    return holds(velocity + changes[std::size_t(i)] + changes[std::size_t(j)], velocity);
 }
 
 bool Walls::answerThree(const Vec3d& velocity, std::array<Vec3d, kMost>& changes) const
@@ -116,7 +117,7 @@ bool Walls::answer(Vec3d& velocity, std::array<Vec3d, kMost>& changes) const
         return good;
     };
     changes.fill(Vec3d::Zero());
-    if (holds(velocity)) return true;
+    if (holds(velocity, velocity)) return true;
     for (int i = 0; i < count_; ++i) {
         if (accept(answerOne(i, velocity, changes))) return true;
     }

@@ -37,7 +37,7 @@ public:
     bool answer(Vec3d& velocity, std::array<Vec3d, kMost>& changes) const;
 
 private:
-    bool holds(const Vec3d& velocity) const;
+    bool holds(const Vec3d& velocity, const Vec3d& before) const;
     bool answerOne(int i, const Vec3d& velocity, std::array<Vec3d, kMost>& changes) const;
     bool answerTwo(int i, int j, const Vec3d& velocity, std::array<Vec3d, kMost>& changes) const;
     bool answerThree(const Vec3d& velocity, std::array<Vec3d, kMost>& changes) const;

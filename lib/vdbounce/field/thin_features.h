@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/field/distance_field.h"
+
+#include <cstdint>
+
+namespace vdbounce {
+
+/// Where a level set's walls, or the gaps between them, are about as thin as its voxels or thinner, so that lookups and
+/// normals go wrong there (lecture, slide 26).
+struct ThinFeatures {
+    struct Kind {
+        std::uint64_t voxels = 0;    ///< that lie in the middle of one
+        double thinnest = 0.0;       ///< about its thickness, world units, where there is any
+        Vec3d place = Vec3d::Zero(); ///< the thinnest's, world
+    };
+    Kind walls;
+    Kind gaps;
+};
+
+/// Looks at every voxel closer to the surface than a voxel's side: on the medial axis, where central differences cancel
+/// out, it is in the middle of a wall (phi has a least value there) or of a gap. Right angles are neither; edges and
+/// creases sharper than some 65 degrees count, for they are thin. Cost: as reading the voxels.
+ThinFeatures thinFeatures(const DistanceField& field);
+
+} // namespace vdbounce
