@@ -102,6 +102,27 @@ TEST_CASE("a sequence of level sets pushes what its surface passes")
     CHECK_THAT(short1.err, Catch::Contains("grow.0011.vdb"));
 }
 
+TEST_CASE("a grid of velocities in a sequence's files is the velocity of its surface")
+{
+    const BallScene scene("sequence = \"turn.####.vdb\"\nrestitution = 0\nfriction = 5",
+                          "x,y,z,vx,vy,vz\n0,1.5,0,0,-2,0\n");
+    const auto ball = bandGrid(sphere(1.0), uniformTransform(0.05), 28, 5.0);
+    ball->setName("surface");
+    auto velocity = openvdb::Vec3SGrid::create(openvdb::Vec3f(0.0f, 0.0f, 0.75f));
+    velocity->setTransform(uniformTransform(0.1));
+    velocity->setName("v");
+    for (int frame = 0; frame <= 10; ++frame) {
+        char name[16];
+        std::snprintf(name, sizeof name, "turn.%04d.vdb", frame);
+        openvdb::io::File(scene / name).write(openvdb::GridCPtrVec{ball, velocity});
+    }
+    scene.run();
+    const Particles last = scene.frame(10);
+    // The ball keeps its form, but its surface is dragged along z, and with it what lies on it.
+    CHECK(last.velocity[0].z() == Approx(0.75).epsilon(1e-3));
+    CHECK(last.velocity[0].head<2>().norm() < 0.02);
+}
+
 TEST_CASE("what sticks rides along, what is deleted is gone, and both are in the files")
 {
     const std::string two = "x,y,z,vx,vy,vz\n0,1.5,0,0,-2,0\n5,5,5,0,0,0\n";

@@ -48,7 +48,7 @@ public:
             for (std::size_t k = 0; k < active_.size(); ++k) {
                 const std::size_t i = active_[k];
                 int& step = done_[i - range_.begin];
-                if (!apart_.batches || !takeFree(i, step, candidates_[k])) stepOne(i, step);
+                if (!apart_.batches || !takeFree(i, candidates_[k])) stepOne(i, step);
                 ++step;
                 flyOn(i, step);
                 if (step < apart_.plan.steps && pass_.skipped_[i] == 0) active_[kept++] = active_[k];
@@ -98,21 +98,21 @@ private:
             candidate.radius =
                 pass_.particles_.radius.empty() ? pass_.options_.defaults.radius : pass_.particles_.radius[i];
             candidate.colliders = &apart_.placedIn(done_[i - range_.begin]);
-            candidate.enough = kStepsAhead * ((candidate.position - x).norm() + candidate.colliders->reach());
+            candidate.way = (candidate.position - x).norm() + candidate.colliders->reach();
+            candidate.enough = kStepsAhead * candidate.way;
         }
         batch_.compute(candidates_);
     }
 
     // The step of a particle that touches nothing, as step() would take it.
-    bool takeFree(std::size_t i, int step, const Candidate& candidate)
+    bool takeFree(std::size_t i, const Candidate& candidate)
     {
         const StepOptions& options = pass_.options_.step;
         const bool moves = pass_.particles_.stuckTo.empty() || pass_.particles_.stuckTo[i] == MovingParticle::kNotStuck;
         if (!(candidate.clearance > 0.0) || pass_.inside_[i] != 0 || !moves || options.repulsion.range > 0.0)
             return false;
-        const double way = (candidate.position - pass_.particles_.position[i]).norm() + apart_.reach[std::size_t(step)];
-        if (!std::isfinite(way)) return false;
-        if (sweepIsDue(options.sweep, way, pass_.clearance_[i] + candidate.clearance,
+        if (!std::isfinite(candidate.way)) return false;
+        if (sweepIsDue(options.sweep, candidate.way, pass_.clearance_[i] + candidate.clearance,
                        pass_.colliders_->smallestVoxel()))
             return false;
         ++tally_.near;

@@ -51,7 +51,8 @@ void ClearanceBatch::lookUp(std::size_t collider, const DistanceField& field, st
         const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
         if (!field.clipped()) {
             // What is outside of the box is at least as far from the surface.
-            const double away = std::sqrt(distanceSquared(field.worldBox(), local)) - candidate.radius;
+            const double squared = distanceSquared(field.worldBox(), local);
+            const double away = squared > 0.0 ? std::sqrt(squared) - candidate.radius : 0.0;
             if (away > 0.0 && (away >= candidate.enough || away >= candidate.clearance)) {
                 candidate.clearance = std::min(candidate.clearance, away);
                 continue;
