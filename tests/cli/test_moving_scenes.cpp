@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <filesystem>
 
 using namespace vdbounce;
 using namespace vdbounce::test;
@@ -100,6 +101,52 @@ TEST_CASE("a sequence of level sets pushes what its surface passes")
     const ToolRun short1 = runTool("collide " + (scene / "scene.toml") + " --set time.frames=11");
     CHECK(short1.exitCode == 3);
     CHECK_THAT(short1.err, Catch::Contains("grow.0011.vdb"));
+}
+
+TEST_CASE("a sequence is known to be whole, and its bands wide enough, before it is run into")
+{
+    const BallScene scene("sequence = \"thin.####.vdb\"", "x,y,z,radius\n0,1.5,0,0.15\n");
+    for (int frame = 0; frame <= 10; ++frame) {
+        char name[16];
+        std::snprintf(name, sizeof name, "thin.%04d.vdb", frame);
+        writeLevelSet(levelSet(bandGrid(sphere(1.0), uniformTransform(0.05), 28, frame == 3 ? 2.0 : 5.0)),
+                      scene / name);
+    }
+    const ToolRun thin = runTool("collide " + (scene / "scene.toml"));
+    CHECK(thin.exitCode == 3);
+    CHECK_THAT(thin.err, Catch::Contains("thin.0003.vdb") && Catch::Contains("too thin"));
+    std::filesystem::remove(scene / "thin.0007.vdb");
+    std::filesystem::remove(scene / "o.0000.csv");
+    const ToolRun missing = runTool("collide " + (scene / "scene.toml"));
+    CHECK(missing.exitCode == 3);
+    CHECK_THAT(missing.err, Catch::Contains("thin.0007.vdb") && Catch::Contains("0-6"));
+    CHECK_FALSE(std::filesystem::exists(scene / "o.0000.csv"));
+}
+
+TEST_CASE("what is stuck to a collider that is not there is refused by name")
+{
+    for (const char* stuck : {"7000000", "1", "-2", "0.5"}) {
+        const BallScene scene("file = \"ball.vdb\"\non_hit = \"stick\"",
+                              std::string("x,y,z,stuck,id\n0,1.5,0,") + stuck + ",42\n");
+        const ToolRun run = runTool("collide " + (scene / "scene.toml"));
+        INFO(stuck << ": " << run.err);
+        if (stuck == std::string("0.5")) {
+            CHECK(run.exitCode == 0); // no collider: -1
+        } else {
+            CHECK(run.exitCode == 3);
+            CHECK_THAT(run.err, Catch::Contains("p.csv") && Catch::Contains("particle 42"));
+        }
+    }
+}
+
+TEST_CASE("what sticks to something that recedes sticks to it, not to where it was")
+{
+    const BallScene scene("file = \"ball.vdb\"\non_hit = \"stick\"\nmotion = { velocity = [0,-5,0] }",
+                          "x,y,z,vx,vy,vz\n0,1.5,0,0,-10,0\n", "[contact]\nsweep = \"always\"\n");
+    scene.run("--set time.frames=3");
+    const Particles last = scene.frame(3);
+    REQUIRE(last.stuckTo[0] == 0);
+    CHECK((last.position[0] - Vec3d(0, -1.5, 0)).norm() == Approx(1.0).margin(0.005));
 }
 
 TEST_CASE("a grid of velocities in a sequence's files is the velocity of its surface")

@@ -107,6 +107,20 @@ TEST_CASE("two particles collide as the textbook says")
     }
 }
 
+TEST_CASE("a collision keeps its restitution wherever between steps it falls")
+{
+    VDBOUNCE_RANDOM(random);
+    const ColliderSet none({});
+    for (int i = 0; i < 500; ++i) {
+        Particles particles =
+            pair(Vec3d(random.uniform(-0.5, -0.3), 0, 0), Vec3d(1, 0, 0), Vec3d::Zero(), Vec3d::Zero());
+        ParticlePass pass(particles, none, interacting(1.0, 0.3, Vec3d::Zero(), 0.1));
+        pass.advance(500);
+        REQUIRE(particles.velocity[0].norm() == Approx(0.0).margin(1e-12));
+        REQUIRE(particles.velocity[1].x() == Approx(1.0));
+    }
+}
+
 TEST_CASE("an oblique collision of two particles keeps Coulomb's law")
 {
     const ColliderSet none({});

@@ -6,6 +6,8 @@
 #include "vdbounce/contact/step.h"
 #include "vdbounce/contact/sweep.h"
 
+#include <cmath>
+
 using namespace vdbounce;
 using namespace vdbounce::test;
 
@@ -67,5 +69,24 @@ TEST_CASE("no particle passes a plate two voxels thick at any speed")
         const bool beside = particle.position.cwiseAbs().x() > 1.0 || particle.position.cwiseAbs().z() > 1.0;
         REQUIRE((particle.position.y() > 0.0 || beside));
         REQUIRE(tally.unresolved == 0);
+    }
+}
+
+TEST_CASE("a deforming wall is found behind whatever else is on the way")
+{
+    VDBOUNCE_RANDOM(random);
+    const Phi thin = [](const Vec3d& p) { return std::abs(p.y()) - 0.05; };
+    const auto wall = std::make_shared<const DistanceField>(levelSet(bandGrid(thin, uniformTransform(0.05), 24)));
+    DeformingShape deforming;
+    deforming.field = std::make_shared<const DeformingField>(wall, wall, 1.0);
+    deforming.end = 1.0;
+    const ColliderSet set(
+        {{"floor", PlaneField(Vec3d(0, -0.06, 0), Vec3d(0, 1, 0)), 0.5, 0.2}, {"wall", deforming, 0.5, 0.2}});
+    const PlacedColliders colliders(set, 0.0, 0.01);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3d from(random.uniform(-0.5, 0.5), random.uniform(0.5, 1), random.uniform(-0.5, 0.5));
+        const PathHit hit = sweepPath(colliders, from, from - Vec3d(0, std::pow(10.0, random.uniform(0.3, 3)), 0), 0.0);
+        REQUIRE(hit.hit);
+        REQUIRE(hit.collider == 1);
     }
 }

@@ -113,6 +113,7 @@ TEST_CASE("a wrong scene is refused by name and line")
         {"[[collider]]\nsequence = \"a.vdb\"\n", ":2", "no ####"},
         {"[[collider]]\nsequence = \"a.##.vdb\"\nfile = \"a.vdb\"\n", ":3", "exactly one"},
         {"[[collider]]\nfile = \"a.vdb\"\nmass = 0\n", ":3", "mass = 0 is out of range"},
+        {"[[collider]]\nfile = \"a.vdb\"\nmass = 1\ncenter_of_mass = [nan,0,0]\n", ":4", "out of range"},
         {"[[collider]]\nplane = {}\nmass = 1\n", ":3", "endless"},
         {"[[collider]]\nfile = \"a.vdb\"\nmass = 1\nmotion = { keys = [ { time = 0 } ] }\n", ":3", "either"},
         {"[[collider]]\nfile = \"a.vdb\"\non_hit = \"explode\"\n", ":3", "not a choice"},

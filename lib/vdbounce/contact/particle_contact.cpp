@@ -50,7 +50,7 @@ ParticleContact::ParticleContact(const Spheres& spheres, const std::vector<Vec3d
     });
     if (!(largest.radius > 0.0)) return;
     // Both of a pair may come nearer by what they move, which is looked after up to a radius.
-    const double nearing = 2.0 * std::min(largest.radius, largest.speed * dt);
+    const double nearing = 2.0 * (std::min(largest.radius, largest.speed * dt) + kTouchMargin * largest.radius);
     const CellList cells(positions, spheres.skipped, 2.0 * largest.radius + nearing);
     const auto forEachPartner = [&](std::size_t place, const auto& visit) {
         const std::uint32_t i = cells.index(place);
@@ -89,6 +89,7 @@ template <class Answer> void ParticleContact::forEachPair(const Answer& answer) 
 bool ParticleContact::meets(const Pair& pair, const std::vector<Vec3d>& starts, const Vec3d& endA, const Vec3d& endB,
                             double margin, Vec3d& normal) const
 {
+    if (spheres_.skipped[pair.a] != 0 || spheres_.skipped[pair.b] != 0) return false;
     const double touch = (1.0 + margin) * (spheres_.radius[pair.a] + spheres_.radius[pair.b]);
     if (!((endA - endB).squaredNorm() < touch * touch)) return false;
     normal = starts[pair.a] - starts[pair.b];
@@ -128,10 +129,13 @@ bool ParticleContact::rest(const std::vector<Vec3d>& starts, std::vector<Vec3d>&
         Vec3d normal;
         if (!meets(pair, starts, ends[a], ends[b], kTouchMargin, normal)) return;
         const double total = spheres_.inverseMass[a] + spheres_.inverseMass[b];
+        const double touch = spheres_.radius[a] + spheres_.radius[b];
+        const double room = (ends[a] - ends[b]).norm() - touch;
+        const double overlap = touch - (starts[a] - starts[b]).norm();
+        // What only comes near is left to the next step's collisions.
+        if (room >= 0.0 && overlap < -kTouchMargin * touch) return;
         // As if the surfaces came towards each other by a share of what they overlapped before.
-        const double overlap = spheres_.radius[a] + spheres_.radius[b] - (starts[a] - starts[b]).norm();
         const Vec3d apart = std::max(0.0, kSeparation * overlap) * normal;
-        const double room = (ends[a] - ends[b]).norm() - spheres_.radius[a] - spheres_.radius[b];
         const Vec3d way = (ends[a] - starts[a]) - (ends[b] - starts[b]);
         if (room < 0.0) {
             const Vec3d move = (respond(way - apart, normal, 0.0, options_.friction) + apart - way) / total;

@@ -49,7 +49,8 @@ ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, c
         particles_.stuckTo.assign(particles_.size(), MovingParticle::kNotStuck);
     std::fill(particles_.rejected.begin(), particles_.rejected.end(), std::uint8_t(0));
     for (std::size_t i = 0; i < particles_.size(); ++i) {
-        if (canBeStepped(fromArrays(particles_, i, options.defaults))) continue;
+        const bool sticksToSomething = particles_.stuckTo.empty() || particles_.stuckTo[i] < int(colliders.size());
+        if (sticksToSomething && canBeStepped(fromArrays(particles_, i, options.defaults))) continue;
         skipped_[i] = 1;
         if (particles_.rejected.empty()) particles_.rejected.assign(particles_.size(), 0);
         particles_.rejected[i] = 1;

@@ -75,7 +75,9 @@ private:
     StepTally stepAll(const PlacedColliders& placed);
     void shareBodies(PlacedColliders& placed);
     void gatherSpheres();
-    StepTally stepInteracting(const PlacedColliders& placed);
+    void holdWhatSticks();
+    void pushBodies(PlacedColliders& placed, const StepTally& tally) const;
+    StepTally stepInteracting(PlacedColliders& placed);
     StepTally answerMoved(const PlacedColliders& placed, const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends,
                           std::vector<Vec3d>& endVelocities, const std::vector<std::uint8_t>& changed);
     std::uint64_t removeDeleted();

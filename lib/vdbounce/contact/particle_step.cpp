@@ -3,6 +3,8 @@
 
 #include "vdbounce/contact/response.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -131,6 +133,17 @@ Vec3d ParticleStep::collided(const Vec3d& before, const Touch& touch, double res
     return after;
 }
 
+Vec3d ParticleStep::brought(const Vec3d& before, const Vec3d& target, std::size_t collider, const Vec3d& at)
+{
+    Vec3d change = target - before;
+    if (colliders[collider].body) {
+        const Mat3d response = Mat3d::Identity() / particle.mass + colliders.placement(collider).body.response(at);
+        change = response.ldlt().solve(change) / particle.mass;
+    }
+    react(collider, at, change);
+    return before + change;
+}
+
 Vec3d ParticleStep::drift(std::size_t collider) const
 {
     if (!colliders.placement(collider).moves) return Vec3d::Zero();
@@ -172,10 +185,8 @@ bool ParticleStep::paysForItsHeight(std::size_t collider)
 
 void ParticleStep::stop(std::size_t collider)
 {
-    const Vec3d before = endVelocity;
     candidate = colliders.carried(collider, start);
-    endVelocity = colliders.surfaceVelocity(collider, candidate);
-    react(collider, start, endVelocity - before);
+    endVelocity = brought(endVelocity, surfaceVelocity(collider, candidate), collider, candidate);
 }
 
 void ParticleStep::hold(std::size_t collider)
@@ -183,6 +194,7 @@ void ParticleStep::hold(std::size_t collider)
     stop(collider);
     penetrates();
     ++tally.unresolved;
+    unresolved = true;
 }
 
 void ParticleStep::record(const Touch& touch)

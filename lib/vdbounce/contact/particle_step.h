@@ -41,7 +41,8 @@ public:
     Vec3d velocity; // at the start of the step, after the collisions so far
     Vec3d endVelocity;
     Vec3d candidate;
-    Probe probe; // what surrounds the candidate
+    Probe probe;             // what surrounds the candidate
+    bool unresolved = false; // and counted
 
     /// The candidate that follows from `velocity`.
     void integrate();
@@ -57,6 +58,11 @@ public:
     /// A velocity after a collision with what is touched, relative to the surface at the end of the step. The collider
     /// takes the opposite impulse.
     Vec3d collided(const Vec3d& before, const Touch& touch, double restitution);
+
+    /// A velocity on its way from `before` to `target` by an impulse between the particle and a collider at a point:
+    /// all the way, or with a collider that gives way until both have the target's velocity relative to each other. The
+    /// collider takes the opposite impulse.
+    Vec3d brought(const Vec3d& before, const Vec3d& target, std::size_t collider, const Vec3d& at);
 
     /// The average velocity of the whole step after contact, relative to how the surface is carried. No impulse: that
     /// is the end velocity's.
@@ -123,8 +129,7 @@ void recover(ParticleStep& step);
 /// The same by an impulse in proportion to the depth, with friction (slide 3).
 void repel(ParticleStep& step);
 
-/// The force within a range of the surface, on the velocity at the start of the step. `near` is what surrounds the
-/// particle there.
+/// The force within a range of the surface, on the velocity at the start of the step.
 void applyRepulsion(ParticleStep& step);
 
 } // namespace vdbounce

@@ -50,6 +50,8 @@ public:
 
     /// A free body's way through the step.
     void place(std::size_t collider, const Pose& begin, const Pose& end, const RigidVelocity& velocity);
+    /// What impulses within the step have made of its velocity at the end.
+    void setVelocity(std::size_t collider, const RigidVelocity& velocity) { placements_[collider].velocity = velocity; }
     /// How many particles share a free body's mass in this step.
     void share(std::size_t collider, const BodyShare& share) { placements_[collider].body = share; }
 

@@ -87,9 +87,8 @@ void repel(ParticleStep& step)
     const Vec3d tangential = w - w.dot(touch.normal) * touch.normal;
     const double slip = tangential.norm();
     const double kept = slip > 0.0 ? std::max(0.0, 1.0 - step.colliders[collider].friction * impulse / slip) : 0.0;
-    const Vec3d before = step.endVelocity;
-    step.endVelocity = surface + (w.dot(touch.normal) + impulse) * touch.normal + kept * tangential;
-    step.react(collider, step.contactPoint(touch), step.endVelocity - before);
+    const Vec3d target = surface + (w.dot(touch.normal) + impulse) * touch.normal + kept * tangential;
+    step.endVelocity = step.brought(step.endVelocity, target, collider, step.contactPoint(touch));
     step.candidate = step.start + step.options.dt * step.endVelocity;
     step.penetrates();
 }
@@ -113,9 +112,8 @@ void applyRepulsion(ParticleStep& step)
     const double slip = tangential.norm();
     const double friction = step.colliders[here.collider].friction;
     const double kept = slip > 0.0 ? std::max(0.0, 1.0 - friction * impulse / slip) : 0.0;
-    const Vec3d before = step.velocity;
-    step.velocity = surface + (leaving + impulse) * touch.normal + kept * tangential;
-    step.react(here.collider, step.contactPoint(touch), step.velocity - before);
+    const Vec3d target = surface + (leaving + impulse) * touch.normal + kept * tangential;
+    step.velocity = step.brought(step.velocity, target, here.collider, step.contactPoint(touch));
     step.integrate();
 }
 

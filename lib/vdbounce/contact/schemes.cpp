@@ -45,10 +45,25 @@ void slideAlong(ParticleStep& step, Walls& walls, int last, double leave, Vec3d&
     average += std::max(0.0, missing) * walls[last].normal;
 }
 
+// Against colliders that give way, and do so differently in each direction.
+void stopOneAfterTheOther(ParticleStep& step, const Walls& walls, Touch touch)
+{
+    for (int i = 0; i < kMaxContacts * walls.count(); ++i) {
+        const Walls::Wall& wall = walls[i % walls.count()];
+        touch.collider = wall.collider;
+        touch.normal = wall.normal;
+        step.endVelocity = step.collided(step.endVelocity, touch, 0.0);
+    }
+}
+
 // The same of the end velocity, whose changes the colliders take.
 void stopAgainst(ParticleStep& step, Walls& walls, const Touch& touch)
 {
     const Vec3d at = step.contactPoint(touch);
+    if (step.colliders.set().anyFree()) {
+        stopOneAfterTheOther(step, walls, touch);
+        return;
+    }
     for (int i = 0; i < walls.count(); ++i) {
         walls[i].velocity = step.surfaceVelocity(walls[i].collider, at);
         walls[i].leave = 0.0;
@@ -62,9 +77,10 @@ void stopAgainst(ParticleStep& step, Walls& walls, const Touch& touch)
 }
 
 // These schemes go on from the average velocity as if the particle had it at the end: the collider answers for the
-// difference too, or momentum would be lost.
+// difference too, or momentum would be lost. One that gives way cannot: it is answered with the end velocity.
 void answerAverage(ParticleStep& step, const Touch& touch)
 {
+    if (step.colliders[touch.collider].body) return;
     step.react(touch.collider, step.contactPoint(touch), step.averageVelocity() - step.endVelocity);
     step.endVelocity = step.averageVelocity();
 }
@@ -131,8 +147,8 @@ void collideContact(ParticleStep& step, Touch touch)
 void iterate(ParticleStep& step, Touch touch)
 {
     const Touch first = touch;
-    const Vec3d before = step.averageVelocity();
     answerAverage(step, touch);
+    const Vec3d before = step.endVelocity;
     std::size_t last = touch.collider;
     // A bounce may lift it by more than its speed pays for: then without one.
     for (const double start : {1.0, 0.0}) {
@@ -145,8 +161,8 @@ void iterate(ParticleStep& step, Touch touch)
 
 void once(ParticleStep& step, const Touch& touch)
 {
-    const Vec3d before = step.averageVelocity();
     answerAverage(step, touch);
+    const Vec3d before = step.endVelocity;
     for (const double share : {1.0, 0.0}) {
         if (!touch.hasNormal) break;
         step.endVelocity = step.collided(before, touch, share * step.colliders[touch.collider].restitution);

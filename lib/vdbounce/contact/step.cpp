@@ -26,9 +26,12 @@ void stick(ParticleStep& step, const Touch& touch)
     const Vec3d before = step.endVelocity;
     step.particle.stuckTo = static_cast<int>(touch.collider);
     // Where it touches when it touches, and from there on with the collider.
-    step.candidate = touch.centre;
-    const bool inside = step.penetrates();
-    if (inside && touch.hasNormal) step.candidate -= step.probe.gap * touch.normal;
+    const Placement& placement = step.colliders.placement(touch.collider);
+    step.candidate = placement.atEnd(touch.centre, touch.when);
+    if (step.penetrates() && touch.hasNormal) {
+        const Mat3d turn = placement.end.rotation * placement.between(touch.when).rotation.transpose();
+        step.candidate -= step.probe.gap * (turn * touch.normal);
+    }
     step.endVelocity = step.colliders.surfaceVelocity(touch.collider, step.candidate);
     step.react(touch.collider, touch.centre, step.endVelocity - before);
 }
@@ -62,7 +65,11 @@ void answerInside(ParticleStep& step)
         touch.touching = true;
         touch.collider = step.probe.collider;
         touch.centre = step.candidate;
-        if (takes(step, touch)) return;
+        step.record(touch);
+        if (takes(step, touch)) {
+            ++step.tally.contacts;
+            return;
+        }
     }
     if (step.options.scheme == Scheme::Once) {
         repel(step);
@@ -87,7 +94,7 @@ void answerNear(ParticleStep& step)
     particle.clearance = step.probe.clearance;
     particle.inside = step.probe.gap < 0.0;
     if (particle.inside && particle.stuckTo == MovingParticle::kNotStuck && !particle.deleted) {
-        ++step.tally.unresolved;
+        if (!step.unresolved) ++step.tally.unresolved;
         step.tally.maxPenetration = std::max(step.tally.maxPenetration, -step.probe.gap);
     }
 }
@@ -138,7 +145,7 @@ void step(MovingParticle& particle, const PlacedColliders& colliders, const Step
 void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved, const Vec3d& velocity,
                const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
 {
-    if (particle.deleted || particle.inside) return;
+    if (particle.deleted || particle.inside || particle.stuckTo != MovingParticle::kNotStuck) return;
     const double way = (moved - particle.position).norm();
     const double rounding = kClearanceRounding * moved.cwiseAbs().maxCoeff();
     if (way + rounding < particle.clearance) {
@@ -150,15 +157,23 @@ void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved,
     MovingParticle from = particle;
     from.position = start;
     from.clearance = 0.0; // was that of another place
-    ParticleStep step(from, colliders, options, tally);
+    StepTally trial(colliders.size());
+    ParticleStep step(from, colliders, options, trial);
     step.candidate = moved;
     step.endVelocity = velocity;
     Touch touch = step.look();
-    if (touch.touching) touch = rest(step, touch);
-    if (touch.touching || step.probe.gap < 0.0) return;
-    particle.position = step.candidate;
-    particle.velocity = step.endVelocity;
-    particle.clearance = step.probe.clearance;
+    if (touch.touching) {
+        if (!particle.touching) ++trial.contacts;
+        step.record(touch);
+        from.touching = true;
+        if (!takes(step, touch)) touch = rest(step, touch);
+    }
+    const bool taken = from.deleted || from.stuckTo != MovingParticle::kNotStuck;
+    if (!taken && (touch.touching || step.probe.gap < 0.0)) return;
+    step.accept();
+    from.clearance = step.probe.clearance;
+    particle = from;
+    tally += trial;
 }
 
 } // namespace vdbounce

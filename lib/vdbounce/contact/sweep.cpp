@@ -105,7 +105,7 @@ std::optional<double> touchOf(const DeformingShape& shape, const RelativePath& p
     };
     const double length = (path.at(end) - path.at(0.0)).norm();
     if (!(length > 0.0)) return std::nullopt;
-    const double shortest = std::max(kShortestStrideVx * field.voxelSize() / length, 1.0 / kMostStrides);
+    const double shortest = end * std::max(kShortestStrideVx * field.voxelSize() / length, 1.0 / kMostStrides);
     double free = 0.0;
     for (double t = 0.0;;) {
         if (gap(t) < 0.0) {

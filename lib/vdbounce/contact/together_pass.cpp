@@ -98,24 +98,42 @@ StepTally ParticlePass::answerMoved(const PlacedColliders& placed, const std::ve
     });
 }
 
-StepTally ParticlePass::stepInteracting(const PlacedColliders& placed)
+// Particles that were removed touch nothing more, and those that stick are not moved by others.
+void ParticlePass::holdWhatSticks()
+{
+    spheres_.skipped = skipped_;
+    for (std::size_t i = 0; i < particles_.stuckTo.size(); ++i) {
+        if (particles_.stuckTo[i] != MovingParticle::kNotStuck) spheres_.inverseMass[i] = 0.0;
+    }
+}
+
+// The velocity that bodies have got in this step so far.
+void ParticlePass::pushBodies(PlacedColliders& placed, const StepTally& tally) const
+{
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        if (!bodies_[b]) continue;
+        RigidBody moved = *bodies_[b];
+        moved.move(options_.step.dt);
+        moved.push(tally.impulse[b], tally.angularImpulse[b]);
+        placed.setVelocity(b, moved.velocity());
+    }
+}
+
+StepTally ParticlePass::stepInteracting(PlacedColliders& placed)
 {
     const double dt = options_.step.dt;
-    spheres_.skipped = skipped_;
-    if (!particles_.stuckTo.empty()) {
-        for (std::size_t i = 0; i < skipped_.size(); ++i) {
-            if (particles_.stuckTo[i] != MovingParticle::kNotStuck) spheres_.inverseMass[i] = 0.0;
-        }
-    }
+    holdWhatSticks();
     const ParticleContact contact(spheres_, particles_.position, particles_.velocity, dt, options_.particles);
     contact.collide(particles_.position, particles_.velocity, dt);
     const std::vector<Vec3d> starts = particles_.position;
     StepTally tally = stepAll(placed);
+    holdWhatSticks();
     std::vector<Vec3d> ends = particles_.position;
     std::vector<Vec3d> endVelocities = particles_.velocity;
     std::vector<std::uint8_t> changed;
     for (int round = 0; round < kContactRounds; ++round) {
         if (!contact.rest(starts, ends, endVelocities, changed)) break;
+        pushBodies(placed, tally);
         tally += answerMoved(placed, starts, ends, endVelocities, changed);
     }
     return tally;
@@ -128,7 +146,7 @@ StepTally ParticlePass::advanceTogether(int steps, Progress& progress)
     for (int s = 0; s < steps; ++s) {
         throwIfStopped(progress);
         for (auto& body : bodies_) {
-            if (body) body->accelerate(options_.step.gravity, options_.step.dt);
+            if (body) body->accelerate(options_.step.gravity, 0.5 * options_.step.dt);
         }
         PlacedColliders placed = placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt);
         if (colliders_->anyFree()) shareBodies(placed);
@@ -137,6 +155,8 @@ StepTally ParticlePass::advanceTogether(int steps, Progress& progress)
             if (!bodies_[b]) continue;
             bodies_[b]->move(options_.step.dt);
             bodies_[b]->push(tally.impulse[b], tally.angularImpulse[b]);
+            // Half of the weight before and half after: so bodies fall as particles do.
+            bodies_[b]->accelerate(options_.step.gravity, 0.5 * options_.step.dt);
         }
         total += tally;
         counter.add(1);

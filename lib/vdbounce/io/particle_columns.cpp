@@ -21,7 +21,10 @@ struct Column {
 // What is no whole number, or too large, is -1: no collider, and nothing counted.
 template <class Whole> Whole whole(double value)
 {
-    if (!(std::abs(value) <= double(std::numeric_limits<Whole>::max()))) return Whole(-1);
+    // The largest of 64 bits is no double; the next above it is.
+    const double end = std::ldexp(1.0, std::numeric_limits<Whole>::digits);
+    const double least = std::numeric_limits<Whole>::is_signed ? -end : 0.0;
+    if (!(value >= least && value < end && value == std::trunc(value))) return static_cast<Whole>(-1);
     return static_cast<Whole>(value);
 }
 

@@ -6,6 +6,7 @@
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/scene/scene_colliders.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -41,11 +42,26 @@ void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
     for (int frame = firstFrame == 0 ? 0 : firstFrame + 1; frame <= lastFrame; ++frame) {
         if (!isWritten(scene, frame, lastFrame)) continue;
         const std::string output = framePath(scene.outputFile, frame);
+        if (!std::filesystem::exists(output)) continue;
         for (const std::string& input : inputs) {
             std::error_code missing;
             if (!std::filesystem::equivalent(output, input, missing)) continue;
             throw UsageError(output, "is the input, which writing frame " + std::to_string(frame) + " would destroy",
                              "name another output");
+        }
+    }
+}
+
+// All at once, rather than after hours at the one that is missing.
+void requireSequences(const Scene& scene, int firstFrame, int lastFrame)
+{
+    for (const ColliderSpec& collider : scene.colliders) {
+        for (int frame = firstFrame; !collider.sequence.empty() && frame <= lastFrame; ++frame) {
+            const std::string path = framePath(collider.sequence, frame);
+            if (std::filesystem::exists(path)) continue;
+            throw InputError(path, "of the sequence of collider '" + collider.name + "' does not exist",
+                             "write it, or end with --frames " + std::to_string(firstFrame) + "-" +
+                                 std::to_string(std::max(firstFrame, frame - 1)));
         }
     }
 }
@@ -66,8 +82,9 @@ public:
           colliders_(loader_.onTheWayTo(options.firstFrame)), defaults_(particleDefaults(scene, colliders_)),
           particles_(readParticles(startFile(scene, options.firstFrame)))
     {
-        requireBandsForRadius(scene_, colliders_, particles_, defaults_);
+        requireBandsForRadius(scene_, colliders_, particles_, defaults_, options.firstFrame);
         requireRestart();
+        requireKnownColliders();
         report_.particles = particles_.size();
         report_.tally = StepTally(colliders_.size());
         report_.energyInitial = totalEnergy(particles_, defaults_, scene_.gravity);
@@ -88,6 +105,7 @@ public:
         for (int frame = options_.firstFrame + 1; frame <= lastFrame_; ++frame) {
             if (loader_.deforming()) {
                 colliders_ = loader_.onTheWayTo(frame);
+                requireBandsForRadius(scene_, colliders_, particles_, defaults_, frame);
                 pass.setColliders(colliders_);
             }
             advance(pass, frame);
@@ -104,6 +122,19 @@ private:
         if (options_.firstFrame == 0 || !colliders_.anyFree()) return;
         throw UsageError("--frames " + std::to_string(options_.firstFrame) + "-",
                          "a collider has a mass, and where it was then is in no file", "start at frame 0");
+    }
+
+    // A particle may have stuck to a collider that the scene has no more.
+    void requireKnownColliders() const
+    {
+        for (std::size_t i = 0; i < particles_.stuckTo.size(); ++i) {
+            const std::int32_t collider = particles_.stuckTo[i];
+            if (collider >= MovingParticle::kNotStuck && collider < std::int32_t(colliders_.size())) continue;
+            throw InputError(startFile(scene_, options_.firstFrame),
+                             "particle " + std::to_string(particles_.id[i]) + " is stuck to collider " +
+                                 std::to_string(collider) + ", and the scene has " + std::to_string(colliders_.size()),
+                             "remove the attribute 'stuck' or use the scene that wrote it");
+        }
     }
 
     void advance(ParticlePass& pass, int frame)
@@ -154,6 +185,7 @@ RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& p
                          "is no range of frames", "give FIRST-LAST with FIRST not above LAST");
     }
     requireInputsKept(scene, options.firstFrame, lastFrame);
+    requireSequences(scene, options.firstFrame, lastFrame);
     return Run(scene, options, progress).run();
 }
 

@@ -42,7 +42,8 @@ struct RunReport {
 };
 
 /// Runs a scene from its particle file to its last frame, writing frames as the scene says. Every file is written whole
-/// or not at all, and nothing is written before everything that the scene names has been read.
+/// or not at all, and nothing is written before everything that the scene names has been read, but for the later files
+/// of sequences, which are known to exist then.
 ///
 /// Throws InputError for files that cannot be used and for radii that a collider's narrow band cannot answer (naming
 /// the band that would do), UsageError for options out of range, Interrupted.

@@ -28,6 +28,8 @@ void checkCollider(const ColliderSpec& collider, const std::string& path, Checke
     if (collider.body) {
         checker.require(collider.body->mass > 0.0 && std::isfinite(collider.body->mass), path + ".mass",
                         collider.body->mass, "give a positive mass");
+        checker.require(collider.body->centre.value_or(Vec3d::Zero()).allFinite(), path + ".center_of_mass",
+                        collider.body->centre.value_or(Vec3d::Zero()).sum(), "give finite numbers");
         const Vec3d inertia = collider.body->inertia.value_or(Vec3d::Ones());
         checker.require((inertia.array() > 0.0).all() && inertia.allFinite(), path + ".inertia", inertia.minCoeff(),
                         "give three positive moments");

@@ -143,7 +143,7 @@ StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders)
 }
 
 void requireBandsForRadius(const Scene& scene, const ColliderSet& colliders, const Particles& particles,
-                           const ParticleDefaults& defaults)
+                           const ParticleDefaults& defaults, int frame)
 {
     const double radius = largestRadius(particles, defaults);
     const double reach = radius + stepOptions(scene, colliders).repulsion.range;
@@ -151,7 +151,9 @@ void requireBandsForRadius(const Scene& scene, const ColliderSet& colliders, con
         if (const auto* field = std::get_if<FieldPtr>(&colliders[i].shape))
             requireBand(**field, scene.colliders[i].file, reach, radius);
         if (const auto* shape = std::get_if<DeformingShape>(&colliders[i].shape))
-            requireBand(shape->field->from(), scene.colliders[i].sequence, reach, radius);
+            for (const int end : {std::max(0, frame - 1), frame})
+                requireBand(end == frame ? shape->field->to() : shape->field->from(),
+                            framePath(scene.colliders[i].sequence, end), reach, radius);
     }
 }
 

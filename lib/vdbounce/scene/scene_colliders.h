@@ -49,7 +49,8 @@ StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders);
 
 /// Throws InputError when a particle is too large for a collider's narrow band: phi is not known beyond it, so touching
 /// at phi = radius would go unnoticed, as would coming within the range of repulsion. Names the band that would do.
+/// `frame` is the one that the colliders are on the way to.
 void requireBandsForRadius(const Scene& scene, const ColliderSet& colliders, const Particles& particles,
-                           const ParticleDefaults& defaults);
+                           const ParticleDefaults& defaults, int frame);
 
 } // namespace vdbounce
