@@ -160,6 +160,20 @@ TEST_CASE("bench field prints each figure with its peer's and their ratio")
     CHECK(lineCount(refused.err) == 1);
 }
 
+TEST_CASE("info warns of walls as thin as a voxel, and of nothing where there are none")
+{
+    const TemporaryFolder folder;
+    for (double thicknessVx : {0.9, 5.0}) {
+        const Phi plate = [=](const Vec3d& p) {
+            return std::max(std::abs(p.y() - 0.02) - 0.5 * thicknessVx * 0.1, p.norm() - 1.5);
+        };
+        writeLevelSet(levelSet(bandGrid(plate, uniformTransform(0.1), 20)), folder / "plate.vdb");
+        const ToolRun info = runTool("info " + (folder / "plate.vdb"));
+        CHECK(info.exitCode == 0);
+        CHECK((info.out.find("warning") != std::string::npos) == (thicknessVx < 1.0));
+    }
+}
+
 TEST_CASE("bench collide prints what a particle step costs beside its peers'")
 {
     const ToolRun result = runTool("bench collide --particles 2000 --repetitions 1 --threads 2 --json");
