@@ -11,8 +11,7 @@
 namespace vdbounce {
 namespace {
 
-// Contact iterations a step. Curved surfaces take two or three, a wedge of two colliders ten; more is a pocket too
-// narrow.
+// Contact iterations a step. Curved surfaces and wedges take two or three; more is a pocket too narrow.
 constexpr int kMaxContacts = 16;
 
 // What a repeated bounce keeps of the restitution of the one before: the loop must lose energy to end (slide 4).

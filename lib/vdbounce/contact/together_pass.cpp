@@ -12,8 +12,8 @@ namespace vdbounce {
 namespace {
 
 // Rounds of contact among particles and with colliders a step at most. What weighs on a particle comes down to it by
-// some layers a round: in a heap of 15 layers, 8 rounds leave overlaps of 1.5 % of a radius and let it creep, 24 leave
-// 0.4 % and it stands.
+// some layers a round: in a heap of 15 layers, 8 rounds leave overlaps of 1.5 % of a diameter and let it creep, 24
+// leave 0.2 % and it stands.
 constexpr int kContactRounds = 24;
 
 struct Counts {
