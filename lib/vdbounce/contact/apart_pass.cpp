@@ -95,6 +95,10 @@ private:
             const Vec3d& v = pass_.particles_.velocity[i];
             const Vec3d& x = pass_.particles_.position[i];
             candidate.position = x + apart_.plan.halfStep * (v + (v + apart_.plan.speedUp));
+            // What touched something in the last step mostly does so in this one, and is looked up then.
+            const bool stuck =
+                !pass_.particles_.stuckTo.empty() && pass_.particles_.stuckTo[i] != MovingParticle::kNotStuck;
+            candidate.asked = !stuck && pass_.inside_[i] == 0 && pass_.touching_[i] == 0;
             candidate.radius =
                 pass_.particles_.radius.empty() ? pass_.options_.defaults.radius : pass_.particles_.radius[i];
             candidate.colliders = &apart_.placedIn(done_[i - range_.begin]);
@@ -108,10 +112,7 @@ private:
     bool takeFree(std::size_t i, const Candidate& candidate)
     {
         const StepOptions& options = pass_.options_.step;
-        const bool moves = pass_.particles_.stuckTo.empty() || pass_.particles_.stuckTo[i] == MovingParticle::kNotStuck;
-        if (!(candidate.clearance > 0.0) || pass_.inside_[i] != 0 || !moves || options.repulsion.range > 0.0)
-            return false;
-        if (!std::isfinite(candidate.way)) return false;
+        if (!(candidate.clearance > 0.0) || !std::isfinite(candidate.way)) return false;
         if (sweepIsDue(options.sweep, candidate.way, pass_.clearance_[i] + candidate.clearance,
                        pass_.colliders_->smallestVoxel()))
             return false;
@@ -150,7 +151,8 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
     apart.plan = flightPlan(options_.step);
     apart.plan.reach = apart.reach.data();
     apart.plan.steps = steps;
-    apart.batches = ClearanceBatch::answers(*colliders_);
+    // Repulsion acts before anything touches.
+    apart.batches = ClearanceBatch::answers(*colliders_) && !(options_.step.repulsion.range > 0.0);
 
     ProgressCounter counter(progress, particles_.size());
     return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {

@@ -24,7 +24,8 @@ bool ClearanceBatch::answers(const ColliderSet& colliders)
 
 void ClearanceBatch::compute(std::vector<Candidate>& candidates)
 {
-    for (Candidate& candidate : candidates) candidate.clearance = std::numeric_limits<double>::infinity();
+    for (Candidate& candidate : candidates)
+        candidate.clearance = candidate.asked ? std::numeric_limits<double>::infinity() : 0.0;
     for (std::size_t c = 0; c < colliders_.size(); ++c) {
         if (const auto* plane = std::get_if<PlaneField>(&colliders_[c].shape)) {
             for (Candidate& candidate : candidates) {

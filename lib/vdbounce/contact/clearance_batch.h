@@ -14,6 +14,7 @@ struct Candidate {
     double radius = 0.0;
     const PlacedColliders* colliders = nullptr; ///< during its step
     double way = 0.0;                           ///< from where it is, with what colliders move meanwhile
+    bool asked = true;                          ///< else nothing is looked up, and the result is 0
     double enough = 0.0;    ///< a clearance that it can do with: no lookup is made to find it larger
     double clearance = 0.0; ///< the result: a lower bound, 0 where it may touch
 };

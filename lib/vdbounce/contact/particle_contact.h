@@ -44,8 +44,6 @@ public:
     bool rest(const std::vector<Vec3d>& starts, std::vector<Vec3d>& ends, std::vector<Vec3d>& endVelocities,
               std::vector<std::uint8_t>& changed) const;
 
-    std::size_t pairCount() const { return pairs_.size(); }
-
 private:
     struct Pair {
         std::uint32_t a;

@@ -40,7 +40,7 @@ bool anyOnHit(const ColliderSet& colliders, OnHit onHit)
 
 ParticlePass::ParticlePass(Particles& particles, const ColliderSet& colliders, const PassOptions& options)
     : particles_(particles), colliders_(&colliders), options_(options), step_(options.firstStep),
-      clearance_(particles.size(), -1.0), inside_(particles.size(), 0), touching_(particles.size(), 0),
+      clearance_(particles.size(), kNeverFree), inside_(particles.size(), 0), touching_(particles.size(), 0),
       skipped_(particles.size(), 0)
 {
     particles_.ensureVelocity();
@@ -134,7 +134,7 @@ std::uint64_t ParticlePass::removeDeleted()
     }
     clearance_.resize(kept.size());
     for (auto* flags : {&inside_, &touching_, &skipped_}) flags->resize(kept.size());
-    keepOnly(particles_, kept);
+    particles_ = reordered(particles_, kept);
     if (options_.interact) gatherSpheres();
     return deleted;
 }

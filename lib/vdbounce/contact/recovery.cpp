@@ -80,14 +80,10 @@ void repel(ParticleStep& step)
     const std::size_t collider = touch.collider;
     const double depth = std::max(touch.depth, -step.probe.gap);
     const Vec3d surface = step.colliders.surfaceVelocity(collider, step.contactPoint(touch));
-    const Vec3d average = step.averageVelocity();
-    const Vec3d w = average - surface;
+    const Vec3d w = step.averageVelocity() - surface;
     // Per mass: what carries it out, and first what still carries it in.
     const double impulse = outOf(step, depth) / step.options.dt + std::max(0.0, -w.dot(touch.normal));
-    const Vec3d tangential = w - w.dot(touch.normal) * touch.normal;
-    const double slip = tangential.norm();
-    const double kept = slip > 0.0 ? std::max(0.0, 1.0 - step.colliders[collider].friction * impulse / slip) : 0.0;
-    const Vec3d target = surface + (w.dot(touch.normal) + impulse) * touch.normal + kept * tangential;
+    const Vec3d target = surface + pushed(w, touch.normal, impulse, step.colliders[collider].friction);
     step.endVelocity = step.brought(step.endVelocity, target, collider, step.contactPoint(touch));
     step.candidate = step.start + step.options.dt * step.endVelocity;
     step.penetrates();
@@ -104,15 +100,10 @@ void applyRepulsion(ParticleStep& step)
     if (here.gap < 0.0 || !leads(step, here.collider, step.start, touch)) return;
     const Vec3d surface = step.colliders.surfaceVelocity(here.collider, step.contactPoint(touch));
     const Vec3d w = step.velocity - surface;
-    const double leaving = w.dot(touch.normal);
     const double force = dt * repulsion.strength * overlap / repulsion.range;
-    const double impulse = std::min(force, std::max(0.0, kForceReach * overlap / dt - leaving));
+    const double impulse = std::min(force, std::max(0.0, kForceReach * overlap / dt - w.dot(touch.normal)));
     if (!(impulse > 0.0)) return;
-    const Vec3d tangential = w - leaving * touch.normal;
-    const double slip = tangential.norm();
-    const double friction = step.colliders[here.collider].friction;
-    const double kept = slip > 0.0 ? std::max(0.0, 1.0 - friction * impulse / slip) : 0.0;
-    const Vec3d target = surface + (leaving + impulse) * touch.normal + kept * tangential;
+    const Vec3d target = surface + pushed(w, touch.normal, impulse, step.colliders[here.collider].friction);
     step.velocity = step.brought(step.velocity, target, here.collider, step.contactPoint(touch));
     step.integrate();
 }

@@ -3,6 +3,8 @@
 
 #include "vdbounce/base/vector.h"
 
+#include <algorithm>
+
 namespace vdbounce {
 
 /// What a collision does to a velocity, with Coulomb friction; `w` is relative to the collider, `normal` has unit
@@ -22,6 +24,16 @@ inline Vec3d respond(const Vec3d& w, const Vec3d& normal, double restitution, do
     const double grip = friction * (1.0 + restitution) * -approach;
     const Vec3d kept = grip >= slip ? Vec3d(Vec3d::Zero()) : Vec3d((1.0 - grip / slip) * tangential);
     return kept - restitution * approach * normal;
+}
+
+/// A velocity that gets an impulse per mass along the normal, >= 0, and Coulomb friction for it.
+inline Vec3d pushed(const Vec3d& w, const Vec3d& normal, double impulse, double friction)
+{
+    const double leaving = w.dot(normal);
+    const Vec3d tangential = w - leaving * normal;
+    const double slip = tangential.norm();
+    const double kept = slip > 0.0 ? std::max(0.0, 1.0 - friction * impulse / slip) : 0.0;
+    return (leaving + impulse) * normal + kept * tangential;
 }
 
 } // namespace vdbounce

@@ -59,11 +59,6 @@ std::vector<std::size_t> orderById(const Particles& particles)
     return order;
 }
 
-void keepOnly(Particles& particles, const std::vector<std::size_t>& order)
-{
-    if (order.size() != particles.size()) particles = reordered(particles, order);
-}
-
 Particles reordered(const Particles& particles, const std::vector<std::size_t>& order)
 {
     Particles result;

@@ -43,9 +43,6 @@ void numberInOrder(Particles& particles);
 /// The box around all particles with finite positions; empty where there are none.
 Box boundingBox(const Particles& particles);
 
-/// The particles at `order` (ascending), in place.
-void keepOnly(Particles& particles, const std::vector<std::size_t>& order);
-
 /// The particle indices in ascending order of id; equal ids keep their order.
 std::vector<std::size_t> orderById(const Particles& particles);
 

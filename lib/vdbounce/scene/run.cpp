@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <set>
 
 namespace vdbounce {
 namespace {
@@ -33,22 +34,25 @@ bool isWritten(const Scene& scene, int frame, int lastFrame)
 // A frame's file may have the name of a file that the scene reads, which writing would destroy.
 void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
 {
-    std::vector<std::string> inputs = {scene.particleFile};
+    std::set<std::filesystem::path> inputs;
+    const auto add = [&](const std::string& path) {
+        std::error_code missing;
+        const std::filesystem::path real = std::filesystem::canonical(path, missing);
+        if (!missing) inputs.insert(real);
+    };
+    add(scene.particleFile);
     for (const ColliderSpec& collider : scene.colliders) {
-        inputs.push_back(collider.file);
+        if (!collider.file.empty()) add(collider.file);
         for (int frame = 0; !collider.sequence.empty() && frame <= lastFrame; ++frame)
-            inputs.push_back(framePath(collider.sequence, frame));
+            add(framePath(collider.sequence, frame));
     }
     for (int frame = firstFrame == 0 ? 0 : firstFrame + 1; frame <= lastFrame; ++frame) {
         if (!isWritten(scene, frame, lastFrame)) continue;
         const std::string output = framePath(scene.outputFile, frame);
-        if (!std::filesystem::exists(output)) continue;
-        for (const std::string& input : inputs) {
-            std::error_code missing;
-            if (!std::filesystem::equivalent(output, input, missing)) continue;
-            throw UsageError(output, "is the input, which writing frame " + std::to_string(frame) + " would destroy",
-                             "name another output");
-        }
+        std::error_code missing;
+        if (inputs.count(std::filesystem::canonical(output, missing)) == 0 || missing) continue;
+        throw UsageError(output, "is the input, which writing frame " + std::to_string(frame) + " would destroy",
+                         "name another output");
     }
 }
 
