@@ -93,7 +93,7 @@ TEST_CASE("the bunny is exact and passes OpenVDB's own check of a level set's ba
     const TriangleMesh mesh = readMesh(sourcePath("data/bunny.obj"));
     const auto result = meshToLevelSet(mesh, withVoxel(9.9 / 64));
     CHECK(result.warnings.empty());
-    const VerifyReport report = verifyLevelSet(result.grid, mesh, 0.0, {1000000});
+    const VerifyReport report = verifyLevelSet(result.grid, mesh, {1000000});
     CHECK(report.samples == toOpenVdb(result.grid).activeVoxelCount());
     CHECK(report.maxErrorVx < 1e-4);
     CHECK(report.signErrors == 0);
@@ -147,21 +147,26 @@ TEST_CASE("each sign method does what it says")
     }
 }
 
-TEST_CASE("faces that disagree are signed by parity, and small holes change nothing")
+TEST_CASE("faces that disagree are turned, and small holes change nothing")
 {
     TriangleMesh shuffled = sphereMesh(1.0, 3);
     for (std::size_t t = 0; t < shuffled.triangles.size(); t += 2)
         std::swap(shuffled.triangles[t][1], shuffled.triangles[t][2]);
-    const auto byParity = meshToLevelSet(shuffled, withVoxel(0.1));
-    CHECK(byParity.sign == SignMethod::Parity);
-    CHECK(phiAt(byParity, Vec3d(0, 0.8, 0)) < 0);
-    CHECK(phiAt(byParity, Vec3d(0, 1.2, 0)) > 0);
+    const auto turned = meshToLevelSet(shuffled, withVoxel(0.1));
+    CHECK(turned.sign == SignMethod::Winding);
+    REQUIRE(turned.warnings.size() == 1);
+    CHECK_THAT(turned.warnings[0], Catch::Contains("oriented opposite"));
+    CHECK(phiAt(turned, Vec3d(0, 0.8, 0)) < 0);
+    CHECK(phiAt(turned, Vec3d(0, 1.2, 0)) > 0);
+    MeshToLevelSetOptions parity = withVoxel(0.1);
+    parity.sign = SignMethod::Parity;
+    CHECK(phiAt(meshToLevelSet(shuffled, parity), Vec3d(0, 0.8, 0)) < 0);
 
     TriangleMesh torn = sphereMesh(1.0, 4);
     torn.triangles.erase(torn.triangles.begin() + 100);
     torn.triangles.erase(torn.triangles.begin() + 777);
     const auto result = meshToLevelSet(torn, withVoxel(0.03));
-    const VerifyReport report = verifyLevelSet(result.grid, sphereMesh(1.0, 4), 0.0, {1000000});
+    const VerifyReport report = verifyLevelSet(result.grid, sphereMesh(1.0, 4), {1000000});
     CHECK(report.signErrors <= 40); // of the voxels in the two holes
 }
 
@@ -171,7 +176,7 @@ TEST_CASE("a mesh that is inside out is solid all the same")
     const auto result = meshToLevelSet(box, withVoxel(0.1));
     CHECK(phiAt(result, Vec3d::Zero()) < 0);
     CHECK(phiAt(result, Vec3d(0.7, 0, 0)) > 0);
-    CHECK(verifyLevelSet(result.grid, box, 0.0).signErrors == 0);
+    CHECK(verifyLevelSet(result.grid, box).signErrors == 0);
 }
 
 TEST_CASE("an open box does not leak its inside into the space around")
@@ -190,7 +195,15 @@ TEST_CASE("what would not fit in memory is refused before any of it is taken")
     CHECK_THROWS_WITH(meshToLevelSet(boxMesh(Vec3d(1, 1, 1)), withVoxel(5e-5)), Catch::Contains("would take about"));
     const TriangleMesh stray =
         joined(boxMesh(Vec3d(0.1, 0.1, 0.1)), boxMesh(Vec3d(0.1, 0.1, 0.1), Vec3d::Constant(300)));
-    CHECK_THROWS_WITH(meshToLevelSet(stray, withVoxel(0.005)), Catch::Contains("would take about"));
+    const auto apart = meshToLevelSet(stray, withVoxel(0.005)); // only what is near surfaces costs
+    CHECK(phiAt(apart, Vec3d::Constant(300)) < 0);
+    CHECK(phiAt(apart, Vec3d::Constant(150)) > 0);
+    MeshToLevelSetOptions flood = withVoxel(0.005); // which looks at all space between
+    flood.sign = SignMethod::Flood;
+    CHECK_THROWS_WITH(meshToLevelSet(stray, flood), Catch::Contains("would take about"));
+    MeshToLevelSetOptions little = withVoxel(0.01);
+    little.maxMemory = 1000000;
+    CHECK_THROWS_WITH(meshToLevelSet(boxMesh(Vec3d(1, 1, 1)), little), Catch::Contains("--max-memory"));
 }
 
 TEST_CASE("an open mesh is converted with a warning, and a sheet has its thickness")
@@ -200,8 +213,9 @@ TEST_CASE("an open mesh is converted with a warning, and a sheet has its thickne
                                         [&](const auto& t) { return bowl.points[t[0]].y() > 0.85; }),
                          bowl.triangles.end());
     const auto solid = meshToLevelSet(bowl, withVoxel(0.1));
-    REQUIRE(solid.warnings.size() == 1);
+    REQUIRE(solid.warnings.size() == 2);
     CHECK_THAT(solid.warnings[0], Catch::Contains("open"));
+    CHECK_THAT(solid.warnings[1], Catch::Contains("unused"));
     CHECK(phiAt(solid, Vec3d(0, -0.8, 0)) < 0);
 
     MeshToLevelSetOptions options = withVoxel(0.1);

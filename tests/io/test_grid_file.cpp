@@ -69,7 +69,7 @@ TEST_CASE("level sets stored as half and double are read")
 {
     const TemporaryFolder folder;
     const auto grid = bandGrid(sphere(1.0), uniformTransform(0.1), 16);
-    writeLevelSet(levelSet(grid), folder / "half.vdb", {/*half=*/true});
+    writeLevelSet(levelSet(grid), folder / "half.vdb", {/*half=*/true, {}});
     auto doubles = std::make_shared<openvdb::DoubleGrid>(*grid);
     doubles->setGridClass(openvdb::GRID_LEVEL_SET);
     writeRaw(doubles, folder / "double.vdb");

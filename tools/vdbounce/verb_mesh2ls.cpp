@@ -74,11 +74,11 @@ double secondsSince(std::chrono::steady_clock::time_point& mark)
 void verify(const Mesh2lsArguments& arguments, const TriangleMesh& mesh, const MeshToLevelSetResult& result,
             const MeshToLevelSetOptions& options, Json& json, std::string& text)
 {
-    const double offset = result.sign == SignMethod::Unsigned ? 0.5 * options.thicknessVx * options.voxelSize : 0.0;
     VerifyOptions verifyOptions;
-    verifyOptions.sign = result.sign;
+    verifyOptions.sign = options.sign;
+    verifyOptions.thickness = options.thicknessVx * options.voxelSize;
     verifyOptions.half = arguments.half;
-    const VerifyReport report = verifyLevelSet(result.grid, mesh, offset, verifyOptions);
+    const VerifyReport report = verifyLevelSet(result.grid, mesh, verifyOptions);
     json["verify"] = {{"samples", report.samples},
                       {"max_error_vx", report.maxErrorVx},
                       {"rms_error_vx", report.rmsErrorVx},
@@ -130,7 +130,7 @@ void runMesh2ls(const Mesh2lsArguments& arguments, const CommonOptions& common)
     throwIfStopped(progress);
 
     mark = std::chrono::steady_clock::now();
-    writeLevelSet(result.grid, arguments.output, {arguments.half});
+    writeLevelSet(result.grid, arguments.output, {arguments.half, {result.closest, result.confidence}});
     json["seconds"] = {{"read", readSeconds}, {"build", buildSeconds}, {"write", secondsSince(mark)}};
     report(common, json, text);
 }

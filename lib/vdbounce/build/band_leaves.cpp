@@ -1,205 +1,234 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/band_leaves.h"
 
-#include "vdbounce/base/error.h"
-#include "vdbounce/base/parallel.h"
+#include "vdbounce/base/box.h"
+#include "vdbounce/build/nearest_in_leaf.h"
 #include "vdbounce/build/triangle_distance.h"
-#include "vdbounce/io/number_text.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <mutex>
 
-#include <tbb/parallel_sort.h>
-#include <unistd.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kTrianglesPerTask = 1024;
-constexpr std::size_t kLeavesPerTask = 16;
-constexpr double kSliver = 1e-7;      // sine of the angle at a below which rounding turns the normal
-constexpr double kMemoryShare = 0.75; // of the machine's memory
-constexpr double kBytesPerLeaf =
-    8192.0; // distances, regions, flags and the grid's own leaf, and the lists of triangles
-constexpr double kBytesPerLatticeCell = 12.0; // which leaf it is, and its region
-constexpr double kLargestLeaf = 134217728.0;  // 2^27: voxel coordinates stay within 30 bits
+using TriangleList = std::vector<std::uint32_t>;
 
-struct LeafTriangle {
-    std::int32_t x, y, z;
-    std::uint32_t triangle;
+// The search in floats may miss the band by its rounding; what it finds is measured again in double.
+constexpr double kSearchMargin = 1.0 + 1e-5;
 
-    bool sameLeaf(const LeafTriangle& o) const { return x == o.x && y == o.y && z == o.z; }
-    bool operator<(const LeafTriangle& o) const
-    {
-        return std::tie(x, y, z, triangle) < std::tie(o.x, o.y, o.z, o.triangle);
-    }
+// Triangles looked at between two questions whether to stop.
+constexpr std::size_t kTrianglesPerLook = 65536;
+
+// Below this many leaves a side parts are not worth a task of their own.
+constexpr int kSmallestTask = 2;
+
+// An axis-aligned box in floats, relative to the search's origin, that is never smaller than what it stands for.
+struct FloatBox {
+    std::array<float, 3> min;
+    std::array<float, 3> max;
 };
 
-struct Triangle {
-    Vec3d a, b, c;
-    Vec3d normal; // unit; zero for a sliver, whose plane is too uncertain to exclude anything
+// A cube of leaves, 2^level on a side.
+struct Cube {
+    Vec3i leaf; // the lowest
+    int level;
 
-    Triangle(const TriangleMesh& mesh, std::uint32_t t)
-        : a(mesh.corner(t, 0)), b(mesh.corner(t, 1)), c(mesh.corner(t, 2))
-    {
-        normal = (b - a).cross(c - a);
-        const double length = normal.norm();
-        const bool sliver = length <= kSliver * (b - a).norm() * (c - a).norm();
-        normal = sliver ? Vec3d(Vec3d::Zero()) : Vec3d(normal / length);
-    }
-    double distanceSquared(const Vec3d& p) const { return (closestPointOnTriangle(p, a, b, c) - p).squaredNorm(); }
-    double planeDistance(const Vec3d& p) const { return std::abs((p - a).dot(normal)); }
+    int side() const { return 1 << level; }
 };
 
-// Appends the leaves in which any voxel centre may be closer than `band` to the triangle.
-void appendReachedLeaves(const TriangleMesh& mesh, std::uint32_t t, double voxelSize, double band,
-                         std::vector<LeafTriangle>& pairs, const Progress& progress)
-{
-    const Triangle triangle(mesh, t);
-    const double leafSize = voxelSize * BandLeaf::kSide;
-    const double halfSpan = 0.5 * voxelSize * (BandLeaf::kSide - 1); // of the voxel centres
-    const double reach = band + halfSpan * std::sqrt(3.0);
-    const Vec3d low = triangle.a.cwiseMin(triangle.b).cwiseMin(triangle.c) - Vec3d::Constant(band);
-    const Vec3d high = triangle.a.cwiseMax(triangle.b).cwiseMax(triangle.c) + Vec3d::Constant(band);
-    const Vec3i from = (low / leafSize).array().floor().cast<int>();
-    const Vec3i to = (high / leafSize).array().floor().cast<int>();
-    for (int x = from.x(); x <= to.x(); ++x) {
-        throwIfStopped(progress); // a large triangle spans millions of leaves
-        for (int y = from.y(); y <= to.y(); ++y) {
-            for (int z = from.z(); z <= to.z(); ++z) {
-                const Vec3d centre = Vec3d(x, y, z) * leafSize + Vec3d::Constant(halfSpan);
-                if (triangle.planeDistance(centre) > reach || triangle.distanceSquared(centre) > reach * reach)
-                    continue;
-                pairs.push_back({x, y, z, t});
+class BandSearch {
+public:
+    BandSearch(const TriangleMesh& mesh, const LinearTransform& transform, double band, bool wantTriangles,
+               Progress& progress)
+        : mesh_(mesh), transform_(transform), band_(band), wantTriangles_(wantTriangles), progress_(progress)
+    {
+    }
+
+    BandLeaves run(const TriangleList& triangles)
+    {
+        const Cube root = rootCube(triangles);
+        origin_ = boxOf(root).centre();
+        // Floats are off by half a unit in their last place, as large as they get here, twice over.
+        margin_ = 4.0f * std::numeric_limits<float>::epsilon() * float(boxOf(root).size().norm());
+        const double reach = band_ + double(margin_);
+        reachSquared_ = float(reach * reach) * (1.0f + 1e-6f);
+        boundTriangles();
+        total_ = std::uint64_t(1) << (3 * std::min(root.level, 20));
+        ProgressCounter counter(progress_, total_);
+        counter_ = &counter;
+        search(root, triangles);
+        std::sort(found_.begin(), found_.end(), [](const auto& a, const auto& b) {
+            return std::lexicographical_compare(a->leaf.data(), a->leaf.data() + 3, b->leaf.data(), b->leaf.data() + 3);
+        });
+        return std::move(found_);
+    }
+
+private:
+    // The smallest cube of leaves, its side a power of two, that holds the band.
+    Cube rootCube(const TriangleList& triangles) const
+    {
+        Box box;
+        for (std::uint32_t t : triangles) {
+            for (std::uint32_t p : mesh_.triangles[t]) box.add(transform_.toIndex(mesh_.points[p]));
+        }
+        const Vec3d reach = band_ * transform_.worldToIndex().rowwise().norm();
+        const Vec3i low = ((box.min - reach) / BandLeaf::kSide).array().floor().cast<int>();
+        const Vec3i high = ((box.max + reach) / BandLeaf::kSide).array().floor().cast<int>();
+        Cube root{low, 0};
+        while (root.side() <= (high - low).maxCoeff()) ++root.level;
+        return root;
+    }
+
+    // World box around the centres of a cube's voxels.
+    Box boxOf(const Cube& cube) const
+    {
+        const double span = BandLeaf::kSide * double(cube.side()) - 1.0;
+        const Vec3d centre =
+            transform_.toWorld(cube.leaf.cast<double>() * BandLeaf::kSide + Vec3d::Constant(0.5 * span));
+        const Vec3d half = 0.5 * span * transform_.indexToWorld().cwiseAbs().rowwise().sum();
+        Box box;
+        box.min = centre - half;
+        box.max = centre + half;
+        return box;
+    }
+
+    void boundTriangles()
+    {
+        boxes_.resize(mesh_.triangles.size());
+        tbb::parallel_for(std::size_t(0), boxes_.size(), [&](std::size_t t) {
+            const Vec3d a = mesh_.corner(t, 0) - origin_;
+            const Vec3d b = mesh_.corner(t, 1) - origin_;
+            const Vec3d c = mesh_.corner(t, 2) - origin_;
+            const Vec3d low = a.cwiseMin(b).cwiseMin(c);
+            const Vec3d high = a.cwiseMax(b).cwiseMax(c);
+            for (int axis = 0; axis < 3; ++axis) {
+                boxes_[t].min[std::size_t(axis)] = float(low[axis]);
+                boxes_[t].max[std::size_t(axis)] = float(high[axis]);
+            }
+        });
+    }
+
+    void search(const Cube& cube, TriangleList list)
+    {
+        throwIfStopped(progress_);
+        if (cube.level == 0) {
+            measure(cube.leaf, list);
+            counter_->add(1);
+            return;
+        }
+        std::array<TriangleList, 8> lists;
+        split(cube, list, lists);
+        TriangleList().swap(list);
+        const auto child = [&](unsigned which) {
+            const int half = cube.side() / 2;
+            const Cube part{cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)),
+                            cube.level - 1};
+            if (lists[which].empty()) {
+                counter_->add(std::min(total_, std::uint64_t(1) << (3 * std::min(part.level, 20))));
+                return;
+            }
+            search(part, std::move(lists[which]));
+        };
+        if (cube.side() >= 2 * kSmallestTask) {
+            tbb::parallel_for(0u, 8u, child);
+        } else {
+            for (unsigned which = 0; which < 8; ++which) child(which);
+        }
+    }
+
+    // Each child's triangles, in order: those that come as near to one of its voxels as any may have to look.
+    void split(const Cube& cube, const TriangleList& list, std::array<TriangleList, 8>& lists) const
+    {
+        std::array<FloatBox, 8> children;
+        for (unsigned which = 0; which < 8; ++which) {
+            const int half = cube.side() / 2;
+            const Box box =
+                boxOf({cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)), cube.level - 1});
+            for (int axis = 0; axis < 3; ++axis) {
+                children[which].min[std::size_t(axis)] = float(box.min[axis] - origin_[axis]);
+                children[which].max[std::size_t(axis)] = float(box.max[axis] - origin_[axis]);
+            }
+        }
+        for (std::uint32_t t : list) {
+            const FloatBox& triangle = boxes_[t];
+            for (unsigned which = 0; which < 8; ++which) {
+                float squared = 0.0f;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const float apart = std::max(std::max(children[which].min[axis] - triangle.max[axis],
+                                                          triangle.min[axis] - children[which].max[axis]),
+                                                 0.0f);
+                    squared += apart * apart;
+                }
+                if (squared <= reachSquared_) lists[which].push_back(t);
             }
         }
     }
-}
 
-std::vector<LeafTriangle> sortedPairs(const TriangleMesh& mesh, double voxelSize, double band, Progress& progress)
-{
-    ProgressCounter counter(progress, 0);
-    const std::size_t count = mesh.triangles.size();
-    std::vector<std::vector<LeafTriangle>> parts(blockCount(count, kTrianglesPerTask));
-    forEachBlock(count, kTrianglesPerTask, [&](std::size_t block, IndexRange range) {
-        for (std::size_t t = range.begin; t < range.end; ++t) {
-            appendReachedLeaves(mesh, static_cast<std::uint32_t>(t), voxelSize, band, parts[block], progress);
+    void measure(const Vec3i& leaf, const TriangleList& list)
+    {
+        LeafPlace place;
+        const Vec3d first = leaf.cast<double>() * BandLeaf::kSide;
+        place.origin = transform_.toWorld(first);
+        place.indexToWorld = transform_.indexToWorld();
+        place.worldToIndex = transform_.worldToIndex();
+        place.reach = band_ * kSearchMargin;
+        NearestInLeaf nearest;
+        nearest.clear(place.reach);
+        for (std::size_t begin = 0; begin < list.size(); begin += kTrianglesPerLook) {
+            throwIfStopped(progress_);
+            findNearestInLeaf(mesh_, list.data() + begin, std::min(kTrianglesPerLook, list.size() - begin), place,
+                              nearest);
         }
-        counter.add(range.end - range.begin);
-    });
-    std::vector<LeafTriangle> pairs;
-    for (auto& part : parts) {
-        pairs.insert(pairs.end(), part.begin(), part.end());
-        std::vector<LeafTriangle>().swap(part);
-    }
-    tbb::parallel_sort(pairs.begin(), pairs.end());
-    return pairs;
-}
-
-// The distances of one leaf's voxels to the triangles of its list; false when none is within the band.
-bool measureLeaf(const TriangleMesh& mesh, const LeafTriangle* list, std::size_t count, double voxelSize, double band,
-                 BandLeaf& leaf)
-{
-    leaf.leaf = Vec3i(list[0].x, list[0].y, list[0].z);
-    std::array<double, BandLeaf::kVoxels> nearest2;
-    nearest2.fill(band * band);
-    bool reached = false;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Triangle triangle(mesh, list[i].triangle);
-        for (int offset = 0; offset < BandLeaf::kVoxels; ++offset) {
-            const Vec3d p = leaf.voxel(offset).cast<double>() * voxelSize;
-            double& best = nearest2[static_cast<std::size_t>(offset)];
-            const double plane = triangle.planeDistance(p);
-            if (plane * plane >= best) continue;
-            const double d2 = triangle.distanceSquared(p);
-            if (d2 < best) {
-                best = d2;
-                reached = true;
-            }
+        auto result = std::make_unique<BandLeaf>();
+        result->leaf = leaf;
+        if (wantTriangles_) result->triangle = std::make_unique<LeafArray<std::uint32_t>>();
+        bool any = false;
+        for (int v = 0; v < BandLeaf::kVoxels; ++v) {
+            float& distance = result->distance[std::size_t(v)];
+            distance = std::numeric_limits<float>::infinity();
+            const std::uint32_t t = nearest.triangle[v];
+            if (wantTriangles_) (*result->triangle)[std::size_t(v)] = t;
+            if (t == NearestInLeaf::kNone) continue;
+            const Vec3d p = transform_.toWorld(result->voxel(v).cast<double>());
+            const double exact =
+                (closestPointOnTriangle(p, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)) - p).norm();
+            if (!(exact < band_)) continue;
+            distance = float(exact);
+            any = true;
         }
+        if (!any) return;
+        const std::lock_guard<std::mutex> lock(adding_);
+        found_.push_back(std::move(result));
     }
-    for (std::size_t offset = 0; offset < nearest2.size(); ++offset) {
-        const bool within = nearest2[offset] < band * band;
-        leaf.distance[offset] = within ? float(std::sqrt(nearest2[offset])) : std::numeric_limits<float>::infinity();
-    }
-    return reached;
-}
 
-void requireIndexable(const TriangleMesh& mesh, double voxelSize, double band)
-{
-    const Box box = boundingBox(mesh);
-    const double farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff()) + band;
-    if (farthest / (voxelSize * BandLeaf::kSide) >= kLargestLeaf) {
-        throw UsageError("voxel size " + std::to_string(voxelSize),
-                         "is too small for a mesh that reaches " + std::to_string(farthest) + " from the origin",
-                         "use larger voxels or move the mesh to the origin");
-    }
-}
-
-double surfaceArea(const TriangleMesh& mesh)
-{
-    double area = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Vec3d& a = mesh.corner(t, 0);
-        area += 0.5 * (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).norm();
-    }
-    return area;
-}
-
-// Refuses what would not fit before any of it is taken: the leaves that the band fills, by the surface's area, and the
-// lattice of leaves around all, by the mesh's box.
-void requireMemory(const TriangleMesh& mesh, double voxelSize, double band)
-{
-    const double leafSize = voxelSize * BandLeaf::kSide;
-    const Vec3d lattice = (boundingBox(mesh).size() + Vec3d::Constant(2.0 * band)) / leafSize + Vec3d::Constant(3.0);
-    const double inLattice = lattice.prod();
-    const double reached = surfaceArea(mesh) * (2.0 * band + 2.0 * leafSize) / std::pow(leafSize, 3.0) + 8.0;
-    const double bytes = std::min(reached, inLattice) * kBytesPerLeaf + inLattice * kBytesPerLatticeCell;
-    const double available = kMemoryShare * double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE));
-    if (!(bytes > available)) return;
-    throw UsageError("voxel size " + numberText(voxelSize) + ", band " + numberText(band),
-                     "would take about " + numberText(std::round(bytes * 1e-8) / 10.0) +
-                         " GB, and three quarters of this machine are " +
-                         numberText(std::round(available * 1e-8) / 10.0) + " GB",
-                     "use larger voxels or a thinner band");
-}
+    const TriangleMesh& mesh_;
+    const LinearTransform& transform_;
+    const double band_;
+    const bool wantTriangles_;
+    Progress& progress_;
+    Vec3d origin_ = Vec3d::Zero(); // of the boxes in floats
+    float margin_ = 0.0f;
+    float reachSquared_ = 0.0f;
+    std::vector<FloatBox> boxes_;
+    std::uint64_t total_ = 0;
+    ProgressCounter* counter_ = nullptr;
+    std::mutex adding_;
+    BandLeaves found_;
+};
 
 } // namespace
 
-std::vector<BandLeaf> measureBandLeaves(const TriangleMesh& mesh, double voxelSize, double band, Progress& progress)
+BandLeaves measureBandLeaves(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
+                             const LinearTransform& transform, double band, bool wantTriangles, Progress& progress)
 {
-    requireIndexable(mesh, voxelSize, band);
-    requireMemory(mesh, voxelSize, band);
     throwIfStopped(progress);
-    const std::vector<LeafTriangle> pairs = sortedPairs(mesh, voxelSize, band, progress);
-    std::vector<std::size_t> begins;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (i == 0 || !pairs[i].sameLeaf(pairs[i - 1])) begins.push_back(i);
-    }
-    const std::size_t count = begins.size();
-    begins.push_back(pairs.size());
-
-    std::vector<BandLeaf> leaves(count);
-    std::vector<char> reached(count);
-    ProgressCounter counter(progress, pairs.size());
-    forEachBlock(count, kLeavesPerTask, [&](std::size_t, IndexRange range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            reached[i] =
-                measureLeaf(mesh, pairs.data() + begins[i], begins[i + 1] - begins[i], voxelSize, band, leaves[i]) ? 1
-                                                                                                                   : 0;
-        }
-        counter.add(begins[range.end] - begins[range.begin]);
-    });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (reached[i] != 0) leaves[kept++] = leaves[i];
-    }
-    leaves.resize(kept);
-    return leaves;
+    if (triangles.empty()) return {};
+    return BandSearch(mesh, transform, band, wantTriangles, progress).run(triangles);
 }
 
 } // namespace vdbounce

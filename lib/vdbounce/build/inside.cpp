@@ -21,12 +21,12 @@ enum class Side : char { Outside, Inside, Mixed };
 
 class InsideFinder {
 public:
-    InsideFinder(const std::vector<BandLeaf>& leaves, const MeshTree& tree, InsideTest test, double voxelSize)
-        : leaves_(leaves), tree_(tree), test_(test), voxelSize_(voxelSize), space_(leaves, voxelSize)
+    InsideFinder(BandLeaves& leaves, const MeshTree& tree, InsideTest test, const LinearTransform& transform)
+        : leaves_(leaves), tree_(tree), test_(test), transform_(transform), space_(leaves, transform.voxelSize())
     {
     }
 
-    InsideFlags find(bool closed, const Progress& progress)
+    std::vector<InsideRun> find(bool closed, const Progress& progress)
     {
         if (!closed && test_ != InsideTest::Flood) chooseWitnesses();
         sides_.resize(space_.regions().size());
@@ -34,17 +34,16 @@ public:
             throwIfStopped(progress);
             sides_[region] = sideOf(region);
         });
-        InsideFlags inside;
-        inside.voxels.resize(leaves_.size());
         forEachIndex(leaves_.size(), kLeavesPerTask, [&](std::size_t leaf) {
             throwIfStopped(progress);
             for (int v = 0; v < BandLeaf::kVoxels; ++v) {
                 const Side side = sides_[space_.regionOf(leaf, v)];
-                inside.voxels[leaf][std::size_t(v)] = side == Side::Mixed ? isInside(leaf, v) : side == Side::Inside;
+                float& distance = leaves_[leaf]->distance[std::size_t(v)];
+                const bool inside = side == Side::Mixed ? isInside(leaf, v) : side == Side::Inside;
+                if (inside && distance > 0.0f) distance = -distance;
             }
         });
-        findEmptyLeaves(inside.emptyLeaves, progress);
-        return inside;
+        return findEmptyLeaves(progress);
     }
 
 private:
@@ -54,35 +53,34 @@ private:
     };
 
     // In the order of the lattice.
-    void findEmptyLeaves(std::vector<Vec3i>& found, const Progress& progress) const
+    std::vector<InsideRun> findEmptyLeaves(const Progress& progress) const
     {
         const auto& empty = space_.emptyLeaves();
         std::vector<char> inside(empty.size());
         forEachIndex(empty.size(), kRegionsPerTask, [&](std::size_t i) {
             throwIfStopped(progress);
             const Side side = sides_[empty[i].region];
-            const Vec3d middle = (empty[i].leaf.cast<double>() * BandLeaf::kSide + Vec3d::Constant(3.5)) * voxelSize_;
-            inside[i] = (side == Side::Mixed ? pointInside(middle) : side == Side::Inside) ? 1 : 0;
+            const Vec3d middle =
+                transform_.toWorld(empty[i].leaf.cast<double>() * BandLeaf::kSide + Vec3d::Constant(3.5));
+            inside[i] = (side == Side::Mixed ? tree_.insideByParity(middle) : side == Side::Inside) ? 1 : 0;
         });
+        std::vector<InsideRun> runs;
         for (std::size_t i = 0; i < empty.size(); ++i) {
-            if (inside[i] != 0) found.push_back(empty[i].leaf);
+            const Vec3i& leaf = empty[i].leaf;
+            if (inside[i] != 0) runs.push_back({leaf.x(), leaf.y(), leaf.z(), leaf.z() + 1});
         }
+        return runs;
     }
 
     bool isInside(std::size_t leaf, int voxel) const
     {
-        return pointInside(leaves_[leaf].voxel(voxel).cast<double>() * voxelSize_);
-    }
-
-    bool pointInside(const Vec3d& point) const
-    {
-        return test_ == InsideTest::Parity ? tree_.insideByParity(point) : std::abs(tree_.windingNumber(point)) > 0.5;
+        return tree_.insideByParity(transform_.toWorld(leaves_[leaf]->voxel(voxel).cast<double>()));
     }
 
     Side sideOf(std::size_t number) const
     {
         const SpaceRegions::Region& region = space_.regions()[number];
-        if (test_ == InsideTest::Flood && region.depth > float(voxelSize_)) {
+        if (test_ == InsideTest::Flood && region.depth > float(transform_.voxelSize().maxCoeff())) {
             return region.outermost ? Side::Outside : Side::Inside;
         }
         const bool inside = isInside(region.deepestLeaf, region.deepestVoxel);
@@ -114,10 +112,10 @@ private:
         }
     }
 
-    const std::vector<BandLeaf>& leaves_;
+    BandLeaves& leaves_;
     const MeshTree& tree_;
     const InsideTest test_;
-    const double voxelSize_;
+    const LinearTransform& transform_;
     const SpaceRegions space_;
     std::vector<std::vector<Voxel>> witnesses_;
     std::vector<Side> sides_;
@@ -125,10 +123,27 @@ private:
 
 } // namespace
 
-InsideFlags findInside(const std::vector<BandLeaf>& leaves, const MeshTree& tree, InsideTest test, bool closed,
-                       double voxelSize, const Progress& progress)
+std::vector<InsideRun> signByRegions(BandLeaves& leaves, const MeshTree& tree, InsideTest test, bool closed,
+                                     const LinearTransform& transform, const Progress& progress)
 {
-    return InsideFinder(leaves, tree, test, voxelSize).find(closed, progress);
+    return InsideFinder(leaves, tree, test, transform).find(closed, progress);
+}
+
+void askRaysForConfidence(BandLeaves& leaves, const MeshTree& tree, const LinearTransform& transform,
+                          const Progress& progress)
+{
+    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
+        throwIfStopped(progress);
+        BandLeaf& leaf = *leaves[i];
+        leaf.confidence = std::make_unique<LeafArray<float>>();
+        for (int v = 0; v < BandLeaf::kVoxels; ++v) {
+            float& sure = (*leaf.confidence)[std::size_t(v)];
+            sure = 1.0f;
+            if (!std::isfinite(leaf.distance[std::size_t(v)])) continue;
+            const int inside = tree.raysInside(transform.toWorld(leaf.voxel(v).cast<double>()));
+            sure = std::abs(2.0f * float(inside) / float(MeshTree::kRays) - 1.0f);
+        }
+    });
 }
 
 } // namespace vdbounce

@@ -2,35 +2,33 @@
 #include "vdbounce/build/mesh_to_level_set.h"
 
 #include "vdbounce/base/error.h"
-#include "vdbounce/base/parallel.h"
-#include "vdbounce/build/band_leaves.h"
+#include "vdbounce/build/conversion_estimate.h"
 #include "vdbounce/build/inside.h"
-#include "vdbounce/build/mesh_tree.h"
+#include "vdbounce/build/leaf_union.h"
+#include "vdbounce/build/level_set_assembly.h"
+#include "vdbounce/build/mesh_warnings.h"
+#include "vdbounce/build/sign_choice.h"
+#include "vdbounce/build/space_regions.h"
 #include "vdbounce/io/number_text.h"
-#include "vdbounce/io/openvdb_grid.h"
-#include "vdbounce/io/vdb_archive.h"
-
-#include <openvdb/tools/Prune.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <numeric>
 
 namespace vdbounce {
 namespace {
 
 // OpenVDB refuses a scale whose determinant is below 3e-15.
 constexpr double kSmallestVoxel = 1.5e-5;
-constexpr std::size_t kLeavesPerTask = 4;
 
 void validate(const MeshToLevelSetOptions& options)
 {
     const auto require = [](bool good, const char* name, double value, const char* remedy) {
         if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
     };
-    require(options.voxelSize > 0.0 && std::isfinite(options.voxelSize), "voxel size", options.voxelSize,
-            "give a positive length");
-    require(options.voxelSize >= kSmallestVoxel, "voxel size", options.voxelSize,
+    const double voxel = options.transform ? options.transform->smallestVoxelSize() : options.voxelSize;
+    require(voxel > 0.0 && std::isfinite(voxel), "voxel size", voxel, "give a positive length");
+    require(voxel >= kSmallestVoxel, "voxel size", voxel,
             "OpenVDB's transforms hold no smaller voxels than 1.5e-5; scale the mesh up");
     require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx,
             "give at least 1 voxel");
@@ -40,135 +38,171 @@ void validate(const MeshToLevelSetOptions& options)
             "give a positive number of voxels");
 }
 
-struct Band {
-    float exterior; // world units
-    float interior;
-};
+using TriangleNumbers = std::vector<std::uint32_t>;
 
-// Writes signed distances into a grid: active within the band, the band's width with the sign beyond it.
-openvdb::FloatGrid::Ptr assemble(const std::vector<BandLeaf>& leaves, const Band& band,
-                                 const MeshToLevelSetOptions& options,
-                                 const std::function<float(std::size_t, int)>& signedDistance)
+TriangleNumbers allTriangles(const TriangleMesh& mesh)
 {
-    auto grid = openvdb::FloatGrid::create(band.exterior);
-    grid->setName(options.gridName);
-    grid->setGridClass(openvdb::GRID_LEVEL_SET);
-    grid->setTransform(openvdb::math::Transform::createLinearTransform(options.voxelSize));
-    std::vector<openvdb::FloatTree::LeafNodeType*> targets;
-    for (const BandLeaf& leaf : leaves) {
-        const Vec3i origin = leaf.voxel(0);
-        targets.push_back(grid->tree().touchLeaf(openvdb::Coord(origin.x(), origin.y(), origin.z())));
+    TriangleNumbers all(mesh.triangles.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+// One conversion, from the mesh to the grids.
+class Conversion {
+public:
+    Conversion(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, Progress& progress)
+        : mesh_(mesh), options_(options), progress_(progress),
+          transform_(options.transform ? *options.transform
+                                       : LinearTransform(options.voxelSize * Mat3d::Identity(), Vec3d::Zero())),
+          voxel_(transform_.voxelSize().maxCoeff()), exterior_(options.exteriorVx * voxel_),
+          interior_(options.interiorVx * voxel_), halfSheet_(0.5 * options.thicknessVx * voxel_)
+    {
     }
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
-        for (int v = 0; v < BandLeaf::kVoxels; ++v) {
-            const float phi = signedDistance(i, v);
-            const auto offset = openvdb::Index(v);
-            if (phi < band.exterior && phi > -band.interior) {
-                targets[i]->setValueOn(offset, phi);
-            } else {
-                targets[i]->setValueOff(offset, phi > 0.0f ? band.exterior : -band.interior);
+
+    MeshToLevelSetResult run()
+    {
+        requireConvertible(mesh_, transform_, exterior_, interior_, maxMemory());
+        throwIfStopped(progress_);
+        result_.sign = options_.sign;
+        switch (options_.sign) {
+        case SignMethod::Auto: automatic(); break;
+        case SignMethod::Winding: asWhole(/*parity=*/false); break;
+        case SignMethod::Parity: asWhole(/*parity=*/true); break;
+        case SignMethod::Flood: byRegions(allTriangles(mesh_), InsideTest::Flood, true); break;
+        case SignMethod::Unsigned: sheets_ = measureSheets(allTriangles(mesh_)); break;
+        }
+        return finish();
+    }
+
+private:
+    std::uint64_t maxMemory() const { return options_.maxMemory > 0 ? options_.maxMemory : defaultMaxMemory(); }
+
+    void automatic()
+    {
+        std::vector<Vec3d> points;
+        const MeshTopology topology = findTopologyMended(mesh_, kTornVx * transform_.smallestVoxelSize(), points);
+        throwIfStopped(progress_);
+        const ComponentSigns signs = chooseSigns(topology, points, transform_.smallestVoxelSize());
+        result_.sign = signs.overall;
+        result_.choices = signs.choices;
+        warnAboutMesh(topology, signs, options_.thicknessVx, result_.warnings);
+        const std::vector<char> sheet = signs.having(SignMethod::Unsigned);
+        const std::vector<std::uint32_t> sheetTriangles = trianglesOf(topology, sheet);
+        if (!sheetTriangles.empty()) sheets_ = measureSheets(sheetTriangles);
+        std::vector<char> solid(sheet.size());
+        std::transform(sheet.begin(), sheet.end(), solid.begin(), [](char flag) { return char(1 - flag); });
+        // Where there are no sheets, triangles that are no part of a body's surface count for the distance all the
+        // same.
+        const std::vector<std::uint32_t> solidTriangles =
+            sheetTriangles.empty() ? allTriangles(mesh_) : trianglesOf(topology, solid);
+        if (solidTriangles.empty()) return;
+        if (signs.needsRays(topology)) return byRegions(solidTriangles, InsideTest::Parity, false);
+        byColumns(solidTriangles, groupSolids(topology, points, solid), true);
+    }
+
+    // All triangles as the file has them, as one body.
+    void asWhole(bool parity)
+    {
+        MeshTopology topology = findTopologyAsIs(mesh_);
+        warnAboutMesh(topology, options_.sign, result_.warnings);
+        if (parity) {
+            if (topology.components.front().openEdges > 0)
+                return byRegions(allTriangles(mesh_), InsideTest::Parity, false);
+            // Whichever way its faces look, they are not asked.
+            topology.components.front().orientable = topology.components.front().bounded = false;
+        }
+        byColumns(allTriangles(mesh_), groupSolids(topology, mesh_.points, {1}), false);
+    }
+
+    void byColumns(const TriangleNumbers& triangles, SolidGroups solids, bool cavities)
+    {
+        leaves_ = measure(triangles, std::max(exterior_, interior_));
+        addMissingLeaves(sheets_, leaves_);
+        const std::vector<Crossing> crossings = findCrossings(solids.mesh, transform_, progress_);
+        if (cavities) warnAboutCavities(findCavities(solids, crossings), result_.warnings);
+        signs_ = signByColumns(leaves_, solids, crossings, transform_, options_.confidence, progress_);
+        warnAboutDoubt(signs_, cavities, result_.warnings);
+        addSplitLeaves();
+        result_.doubtfulVoxels = signs_.holes.voxels + signs_.overlaps.voxels;
+        result_.counted = cavities;
+    }
+
+    void byRegions(const TriangleNumbers& triangles, InsideTest test, bool closed)
+    {
+        leaves_ = measure(triangles, std::max(exterior_, interior_));
+        addMissingLeaves(sheets_, leaves_);
+        requireLatticeFits(leaves_, maxMemory());
+        const TriangleMesh part = partOf(mesh_, triangles);
+        const MeshTree tree(part);
+        throwIfStopped(progress_);
+        signs_.inside = signByRegions(leaves_, tree, test, closed, transform_, progress_);
+        if (options_.confidence) askRaysForConfidence(leaves_, tree, transform_, progress_);
+    }
+
+    // They hold nothing of the band, but both sides.
+    void addSplitLeaves()
+    {
+        BandLeaves split;
+        for (const SplitLeaf& part : signs_.split) {
+            split.push_back(emptyLeaf(part.leaf, options_.closest));
+            for (std::size_t v = 0; v < part.inside.size(); ++v) {
+                if (part.inside[v]) split.back()->distance[v] = -split.back()->distance[v];
             }
         }
-    });
-    return grid;
-}
-
-InsideTest insideTest(SignMethod sign)
-{
-    if (sign == SignMethod::Parity) return InsideTest::Parity;
-    return sign == SignMethod::Flood ? InsideTest::Flood : InsideTest::Winding;
-}
-
-// Winding needs faces that agree on which way is out, parity needs a surface without holes.
-SignMethod chosenMethod(const EdgeReport& edges, SignMethod asked)
-{
-    if (asked != SignMethod::Auto) return asked;
-    return edges.inconsistent > 0 && edges.open == 0 ? SignMethod::Parity : SignMethod::Winding;
-}
-
-std::vector<std::string> warnAboutEdges(const EdgeReport& edges, SignMethod sign)
-{
-    std::vector<std::string> warnings;
-    if (edges.open > 0) {
-        warnings.push_back("the mesh is open (" + std::to_string(edges.open) +
-                           " edges with one triangle): the sign across its holes is the " + signMethodName(sign) +
-                           " method's guess, and phi jumps there; close the mesh, or use --sign unsigned for a sheet");
+        addLeaves(std::move(split), leaves_);
     }
-    if (edges.inconsistent > 0) {
-        const std::string found = std::to_string(edges.inconsistent) + " edges join triangles that face opposite ways";
-        warnings.push_back(found + (sign == SignMethod::Parity ? ": inside is told by parity, which does not ask them"
-                                                               : "; orient the mesh or try --sign parity"));
-    }
-    if (edges.nonManifold > 0)
-        warnings.push_back(std::to_string(edges.nonManifold) + " edges have three triangles or more");
-    return warnings;
-}
 
-openvdb::FloatGrid::Ptr makeSheet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, Progress& progress)
-{
-    const double half = 0.5 * options.thicknessVx * options.voxelSize;
-    const Band band{float(options.exteriorVx * options.voxelSize), float(half)};
-    const auto leaves =
-        measureBandLeaves(mesh, options.voxelSize, options.exteriorVx * options.voxelSize + half, progress);
-    return assemble(leaves, band, options, [&](std::size_t leaf, int v) {
-        // A voxel centre on the mesh itself is inside by the whole half thickness, and must count as inside the band.
-        return std::max(leaves[leaf].distance[std::size_t(v)] - float(half), std::nextafter(-float(half), 0.0f));
-    });
-}
-
-openvdb::FloatGrid::Ptr makeSolid(const TriangleMesh& mesh, const EdgeReport& edges, SignMethod sign,
-                                  const MeshToLevelSetOptions& options, Progress& progress)
-{
-    const Band band{float(options.exteriorVx * options.voxelSize), float(options.interiorVx * options.voxelSize)};
-    const double reach = std::max(options.exteriorVx, options.interiorVx) * options.voxelSize;
-    const auto leaves = measureBandLeaves(mesh, options.voxelSize, reach, progress);
-    const MeshTree tree(mesh);
-    throwIfStopped(progress);
-    const InsideFlags inside = findInside(leaves, tree, insideTest(sign), edges.open == 0, options.voxelSize, progress);
-    auto grid = assemble(leaves, band, options, [&](std::size_t leaf, int v) {
-        const float distance = leaves[leaf].distance[std::size_t(v)];
-        return inside.voxels[leaf][std::size_t(v)] ? -distance : distance;
-    });
-    for (const Vec3i& leaf : inside.emptyLeaves) {
-        const Vec3i origin = leaf * BandLeaf::kSide;
-        grid->tree().addTile(1, openvdb::Coord(origin.x(), origin.y(), origin.z()), -band.interior, /*active=*/false);
+    BandLeaves measure(const TriangleNumbers& triangles, double band)
+    {
+        return measureBandLeaves(mesh_, triangles, transform_, band, options_.closest, progress_);
     }
-    return grid;
-}
+
+    BandLeaves measureSheets(const TriangleNumbers& triangles)
+    {
+        BandLeaves leaves = measure(triangles, exterior_ + halfSheet_);
+        thicken(leaves, float(halfSheet_));
+        return leaves;
+    }
+
+    MeshToLevelSetResult finish()
+    {
+        BandWidths band{float(exterior_), float(interior_)};
+        if (leaves_.empty()) {
+            band.interior = float(halfSheet_);
+            leaves_ = std::move(sheets_);
+        } else if (!sheets_.empty()) {
+            band.interior = std::max(band.interior, float(halfSheet_));
+            unite(leaves_, sheets_);
+        }
+        throwIfStopped(progress_);
+        AssembledGrids grids = assembleLevelSet(std::move(leaves_), signs_.inside, transform_, band, options_.gridName,
+                                                options_.confidence);
+        result_.grid = std::move(grids.levelSet);
+        result_.closest = std::move(grids.closest);
+        result_.confidence = std::move(grids.confidence);
+        return std::move(result_);
+    }
+
+    const TriangleMesh& mesh_;
+    const MeshToLevelSetOptions& options_;
+    Progress& progress_;
+    const LinearTransform transform_;
+    const double voxel_; // the longest side, world
+    const double exterior_;
+    const double interior_;
+    const double halfSheet_;
+    BandLeaves leaves_;
+    BandLeaves sheets_;
+    ColumnSigns signs_;
+    MeshToLevelSetResult result_;
+};
 
 } // namespace
-
-const char* signMethodName(SignMethod method)
-{
-    switch (method) {
-    case SignMethod::Auto: return "auto";
-    case SignMethod::Winding: return "winding";
-    case SignMethod::Parity: return "parity";
-    case SignMethod::Flood: return "flood";
-    case SignMethod::Unsigned: return "unsigned";
-    }
-    return "";
-}
 
 MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, Progress& progress)
 {
     validate(options);
-    initializeOpenVdb();
-    MeshToLevelSetResult result;
-    const EdgeReport edges = inspectEdges(mesh);
-    result.sign = chosenMethod(edges, options.sign);
-    openvdb::FloatGrid::Ptr grid;
-    if (result.sign == SignMethod::Unsigned) {
-        grid = makeSheet(mesh, options, progress);
-    } else {
-        grid = makeSolid(mesh, edges, result.sign, options, progress);
-        result.warnings = warnAboutEdges(edges, result.sign);
-    }
-    throwIfStopped(progress);
-    // Leaves that hold nothing but one side become tiles.
-    openvdb::tools::pruneLevelSet(grid->tree());
-    result.grid = toLevelSetGrid(grid, options.gridName);
-    return result;
+    return Conversion(mesh, options, progress).run();
 }
 
 } // namespace vdbounce

@@ -20,9 +20,9 @@ constexpr double kWindingAccuracy = 3.0;
 constexpr std::size_t kStackDepth = 128; // halving 2^32 triangles takes 32 levels, two entries each
 
 // No axis, diagonal or face direction of a modelled mesh is likely to be parallel to these.
-const Vec3d kRayDirections[5] = {Vec3d(0.8147, 0.3213, 0.4826), Vec3d(-0.5377, 0.7283, 0.4247),
-                                 Vec3d(0.2189, -0.6571, 0.7213), Vec3d(-0.4161, -0.5793, -0.7009),
-                                 Vec3d(0.6837, 0.5119, -0.5203)};
+const Vec3d kRayDirections[MeshTree::kRays] = {Vec3d(0.8147, 0.3213, 0.4826), Vec3d(-0.5377, 0.7283, 0.4247),
+                                               Vec3d(0.2189, -0.6571, 0.7213), Vec3d(-0.4161, -0.5793, -0.7009),
+                                               Vec3d(0.6837, 0.5119, -0.5203)};
 
 // True when the ray from `origin` crosses the triangle. Method: Moeller and Trumbore 1997.
 bool rayCrosses(const Vec3d& origin, const Vec3d& direction, const Vec3d& a, const Vec3d& b, const Vec3d& c)
@@ -173,11 +173,11 @@ double MeshTree::windingNumber(const Vec3d& p) const
     return winding;
 }
 
-bool MeshTree::insideByParity(const Vec3d& p) const
+int MeshTree::raysInside(const Vec3d& p) const
 {
-    int votes = 0;
-    for (const Vec3d& direction : kRayDirections) votes += crossingsOdd(p, direction) ? 1 : -1;
-    return votes > 0;
+    int inside = 0;
+    for (const Vec3d& direction : kRayDirections) inside += crossingsOdd(p, direction) ? 1 : 0;
+    return inside;
 }
 
 bool MeshTree::crossingsOdd(const Vec3d& origin, const Vec3d& direction) const

@@ -29,8 +29,13 @@ public:
     /// exact sum.
     double windingNumber(const Vec3d& p) const;
 
-    /// True when p is inside by the parity of crossings, the majority of several rays in fixed oblique directions.
-    bool insideByParity(const Vec3d& p) const;
+    static constexpr int kRays = 5;
+
+    /// How many of several rays from p in fixed oblique directions cross the mesh an odd number of times, 0 to kRays.
+    int raysInside(const Vec3d& p) const;
+
+    /// True when p is inside by the parity of crossings, the majority of those rays.
+    bool insideByParity(const Vec3d& p) const { return 2 * raysInside(p) > kRays; }
 
 private:
     struct Node {

@@ -2,56 +2,37 @@
 #include "vdbounce/build/space_regions.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/build/disjoint_sets.h"
+#include "vdbounce/io/number_text.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 namespace vdbounce {
 namespace {
 
+constexpr double kBytesPerCell = 12.0;         // which leaf it is, its set, and its region
+constexpr double kBytesPerLeaf = 512.0 * 12.0; // each voxel's set and region
+
 // Distances are rounded to float; their sum must exceed the way by more than that can be wrong.
 constexpr float kRoundingMargin = 1.00001f;
-
-// Sets with the smallest member as their name, so that names do not depend on the order of joining.
-class DisjointSets {
-public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-    std::uint32_t find(std::uint32_t a)
-    {
-        while (parent_[a] != a) {
-            parent_[a] = parent_[parent_[a]];
-            a = parent_[a];
-        }
-        return a;
-    }
-    void join(std::uint32_t a, std::uint32_t b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 // The box of leaves around all, one leaf wider on each side, and which leaf lies where in it.
 class LeafLattice {
 public:
-    explicit LeafLattice(const std::vector<BandLeaf>& leaves)
+    explicit LeafLattice(const BandLeaves& leaves)
     {
-        Vec3i high = leaves.front().leaf;
+        Vec3i high = leaves.front()->leaf;
         low_ = high;
-        for (const BandLeaf& leaf : leaves) {
-            low_ = low_.cwiseMin(leaf.leaf);
-            high = high.cwiseMax(leaf.leaf);
+        for (const auto& leaf : leaves) {
+            low_ = low_.cwiseMin(leaf->leaf);
+            high = high.cwiseMax(leaf->leaf);
         }
         low_ -= Vec3i::Ones();
         size_ = high - low_ + Vec3i::Constant(2);
         leafAt_.assign(static_cast<std::size_t>(size_.x()) * std::size_t(size_.y()) * std::size_t(size_.z()), -1);
         for (std::size_t i = 0; i < leaves.size(); ++i)
-            leafAt_[cell(leaves[i].leaf - low_)] = static_cast<std::int32_t>(i);
+            leafAt_[cell(leaves[i]->leaf - low_)] = static_cast<std::int32_t>(i);
     }
     std::size_t cells() const { return leafAt_.size(); }
     const Vec3i& size() const { return size_; }
@@ -83,8 +64,8 @@ private:
 // voxels of all leaves, then the lattice's cells.
 class Joiner {
 public:
-    Joiner(const std::vector<BandLeaf>& leaves, const LeafLattice& lattice, double voxelSize, DisjointSets& sets)
-        : leaves_(leaves), lattice_(lattice), way_(float(voxelSize) * kRoundingMargin), sets_(sets)
+    Joiner(const BandLeaves& leaves, const LeafLattice& lattice, const Vec3d& voxelSize, DisjointSets& sets)
+        : leaves_(leaves), lattice_(lattice), way_(voxelSize.cast<float>() * kRoundingMargin), sets_(sets)
     {
     }
 
@@ -116,17 +97,18 @@ public:
 private:
     static constexpr int kStride[3] = {64, 8, 1};
 
-    void joinVoxels(std::size_t leafA, int a, std::size_t leafB, int b)
+    void joinVoxels(int axis, std::size_t leafA, int a, std::size_t leafB, int b)
     {
-        if (leaves_[leafA].distance[std::size_t(a)] + leaves_[leafB].distance[std::size_t(b)] > way_)
+        if (leaves_[leafA]->distance[std::size_t(a)] + leaves_[leafB]->distance[std::size_t(b)] > way_[axis])
             sets_.join(element(leafA, a), element(leafB, b));
     }
 
     void joinWithin(std::size_t leaf)
     {
         for (int voxel = 0; voxel < BandLeaf::kVoxels; ++voxel) {
-            for (int stride : kStride) {
-                if ((voxel / stride & 7) < 7) joinVoxels(leaf, voxel, leaf, voxel + stride);
+            for (int axis = 0; axis < 3; ++axis) {
+                const int stride = kStride[axis];
+                if ((voxel / stride & 7) < 7) joinVoxels(axis, leaf, voxel, leaf, voxel + stride);
             }
         }
     }
@@ -151,21 +133,38 @@ private:
             } else if (b < 0) {
                 sets_.join(element(there), element(std::size_t(a), last));
             } else {
-                joinVoxels(std::size_t(a), last, std::size_t(b), voxel);
+                joinVoxels(axis, std::size_t(a), last, std::size_t(b), voxel);
             }
         }
     }
 
-    const std::vector<BandLeaf>& leaves_;
+    const BandLeaves& leaves_;
     const LeafLattice& lattice_;
-    float way_;
+    const Eigen::Vector3f way_; // from a voxel to the next along each axis, world
     DisjointSets& sets_;
 };
 
 } // namespace
 
-SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize)
-    : label_(leaves.size() * BandLeaf::kVoxels)
+void requireLatticeFits(const BandLeaves& leaves, std::uint64_t maxMemory)
+{
+    if (leaves.empty()) return;
+    Vec3i low = leaves.front()->leaf;
+    Vec3i high = low;
+    for (const auto& leaf : leaves) {
+        low = low.cwiseMin(leaf->leaf);
+        high = high.cwiseMax(leaf->leaf);
+    }
+    const double cells = (high - low + Vec3i::Constant(3)).cast<double>().prod();
+    const double bytes = cells * kBytesPerCell + double(leaves.size()) * kBytesPerLeaf;
+    if (!(bytes > double(maxMemory))) return;
+    throw UsageError("the sign",
+                     "would take about " + numberText(std::round(bytes * 1e-8) / 10.0) +
+                         " GB by flood or rays, which need all the space around the mesh",
+                     "use --sign winding, larger voxels, or --max-memory");
+}
+
+SpaceRegions::SpaceRegions(const BandLeaves& leaves, const Vec3d& voxelSize) : label_(leaves.size() * BandLeaf::kVoxels)
 {
     if (leaves.empty()) return;
     const LeafLattice lattice(leaves);
@@ -190,7 +189,7 @@ SpaceRegions::SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize
                 regions_.emplace_back();
             }
             label_[joiner.element(leaf, voxel)] = region;
-            const float depth = leaves[leaf].distance[std::size_t(voxel)];
+            const float depth = leaves[leaf]->distance[std::size_t(voxel)];
             if (depth > regions_[region].depth) regions_[region] = {leaf, voxel, depth, false};
         }
     }

@@ -8,6 +8,10 @@
 
 namespace vdbounce {
 
+/// Throws UsageError when the regions of these leaves would take more than `maxMemory` bytes: they need something for
+/// each leaf of the box around all, so that far-off parts cost.
+void requireLatticeFits(const BandLeaves& leaves, std::uint64_t maxMemory);
+
 /// The connected regions into which a mesh divides space, found on the voxels of its band and the empty leaves between.
 ///
 /// Two neighbouring voxels are joined where their distances to the mesh add up to more than the way between them:
@@ -15,9 +19,9 @@ namespace vdbounce {
 /// apart: voxels close to the mesh often are regions of their own.
 class SpaceRegions {
 public:
-    /// `leaves` in lexicographic order, as measureBandLeaves returns them. Memory: 2 KB a leaf, 4 bytes for each leaf
-    /// of the box around all.
-    SpaceRegions(const std::vector<BandLeaf>& leaves, double voxelSize);
+    /// `leaves` with unsigned distances in lexicographic order, as measureBandLeaves returns them; `voxelSize` as in
+    /// LinearTransform. Memory: 2 KB a leaf, 12 bytes for each leaf of the box around all.
+    SpaceRegions(const BandLeaves& leaves, const Vec3d& voxelSize);
 
     struct Region {
         std::size_t deepestLeaf = 0; ///< where the region's voxel farthest from the mesh is

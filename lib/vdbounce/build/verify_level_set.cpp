@@ -2,7 +2,8 @@
 #include "vdbounce/build/verify_level_set.h"
 
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/build/mesh_tree.h"
+#include "vdbounce/build/mesh_oracle.h"
+#include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/io/openvdb_grid.h"
 
 #include <algorithm>
@@ -33,13 +34,6 @@ std::vector<VoxelSample> spreadSamples(const openvdb::FloatGrid& grid, const Ver
     return samples;
 }
 
-bool signIsWrong(const MeshTree& tree, SignMethod sign, const Vec3d& p, double phi)
-{
-    const bool inside = sign == SignMethod::Parity ? tree.insideByParity(p) : std::abs(tree.windingNumber(p)) > 0.5;
-    // Flood also fills what only it calls inside.
-    return sign == SignMethod::Flood ? inside && !(phi < 0.0) : inside != (phi < 0.0);
-}
-
 struct Errors {
     double largest = 0.0;
     double squares = 0.0;
@@ -54,32 +48,38 @@ struct Errors {
     }
 };
 
+// `onSurface`: a voxel that float rounding places on the surface has no side to be wrong about.
+void compare(const MeshOracle& oracle, const VoxelSample& sample, bool flood, double onSurface, Errors& errors)
+{
+    const double body = oracle.bodyDistance(sample.world);
+    const double sheet = oracle.sheetDistance(sample.world);
+    const bool inside = body < onSurface ? sample.phi < 0.0 : oracle.inBody(sample.world);
+    const double expected = std::min(inside ? -body : body, sheet);
+    // A wrong side is counted as such, not as a wrong distance; flood also fills what only it calls inside.
+    const bool filled = flood && !inside && sample.phi < 0.0;
+    const bool wrongSide = !filled && std::abs(expected) > onSurface && (expected < 0.0) != (sample.phi < 0.0);
+    const double error = std::isfinite(sheet) && !wrongSide ? std::abs(sample.phi - expected)
+                                                            : std::abs(std::abs(sample.phi) - std::abs(expected));
+    errors.largest = std::max(errors.largest, error);
+    errors.squares += error * error;
+    errors.signs += wrongSide ? 1 : 0;
+}
+
 } // namespace
 
-VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh, double offset,
-                            const VerifyOptions& options)
+VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh, const VerifyOptions& options)
 {
     const openvdb::FloatGrid& grid = toOpenVdb(handle);
-    const MeshTree tree(mesh);
+    const LinearTransform transform = toLinearTransform(grid.transform());
+    const double voxel = transform.smallestVoxelSize();
+    const MeshOracle oracle(mesh, options.sign, transform, 0.5 * options.thickness);
     const std::vector<VoxelSample> samples = spreadSamples(grid, options);
-    const bool sheet = options.sign == SignMethod::Unsigned;
-    // A voxel that float rounding places on the surface has no side to be wrong about.
-    const double onSurface = 1e-6 * grid.voxelSize()[0];
     const Errors errors = reduceBlocks(samples.size(), 256, Errors{}, [&](IndexRange range) {
         Errors part;
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-            const double distance = tree.closest(samples[i].world).distance;
-            const double error =
-                sheet ? std::abs(samples[i].phi - (distance - offset)) : std::abs(std::abs(samples[i].phi) - distance);
-            part.largest = std::max(part.largest, error);
-            part.squares += error * error;
-            if (sheet || distance < onSurface) continue;
-            const Vec3d& p = samples[i].world;
-            if (signIsWrong(tree, options.sign, p, samples[i].phi)) ++part.signs;
-        }
+        for (std::size_t i = range.begin; i < range.end; ++i)
+            compare(oracle, samples[i], options.sign == SignMethod::Flood, 1e-6 * voxel, part);
         return part;
     });
-    const double voxel = grid.voxelSize()[0];
     VerifyReport report;
     report.samples = samples.size();
     report.maxErrorVx = errors.largest / voxel;

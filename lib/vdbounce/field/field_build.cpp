@@ -4,6 +4,7 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/field/lipschitz.h"
+#include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/openvdb_grid.h"
 
@@ -18,19 +19,6 @@ using openvdb::Coord;
 using openvdb::FloatGrid;
 
 constexpr std::size_t kLeavesPerTask = 32;
-
-LinearTransform toLinearTransform(const openvdb::math::Transform& transform)
-{
-    Mat3d matrix;
-    const auto toVec = [](const openvdb::Vec3d& v) { return Vec3d(v.x(), v.y(), v.z()); };
-    const Vec3d origin = toVec(transform.indexToWorld(openvdb::Vec3d(0.0)));
-    const auto map = transform.baseMap()->getAffineMap();
-    const openvdb::Mat4d affine = map->getMat4(); // row vectors: world = index * affine
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) matrix(column, row) = affine(row, column);
-    }
-    return LinearTransform(matrix, origin);
-}
 
 Vec3i toVec3i(const Coord& c) { return Vec3i(c.x(), c.y(), c.z()); }
 

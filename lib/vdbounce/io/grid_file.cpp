@@ -145,7 +145,11 @@ void writeLevelSet(const LevelSetGrid& grid, const std::string& path, const Grid
     openvdb::MetaMap metadata(source);
     metadata.removeMeta(openvdb::GridBase::META_SAVE_HALF_FLOAT);
     if (options.half) metadata.insertMeta(openvdb::GridBase::META_SAVE_HALF_FLOAT, openvdb::BoolMetadata(true));
-    writeVdbFile({source.copyReplacingMetadata(metadata)}, path);
+    openvdb::GridCPtrVec grids{source.copyReplacingMetadata(metadata)};
+    for (const SidecarGrid& other : options.beside) {
+        if (other) grids.push_back(other.holder().grid);
+    }
+    writeVdbFile(grids, path);
 }
 
 std::vector<GridEntry> listGrids(const std::string& path)

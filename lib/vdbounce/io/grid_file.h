@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vdbounce/io/level_set_grid.h"
+#include "vdbounce/io/sidecar_grid.h"
 
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace vdbounce {
 LevelSetGrid readLevelSet(const std::string& path, const std::string& gridName = "");
 
 struct GridWriteOptions {
-    bool half = false; ///< store values as 16-bit floats: half the size, 11 bits of precision
+    bool half = false; ///< store the level set's values as 16-bit floats: half the size, 11 bits of precision
+    std::vector<SidecarGrid> beside; ///< written into the same file behind the level set; empty ones are passed over
 };
 
 /// Writes the grid whole or not at all. Equal grids give equal files.

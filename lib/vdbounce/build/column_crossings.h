@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/base/progress.h"
+#include "vdbounce/field/linear_transform.h"
+#include "vdbounce/io/triangle_mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace vdbounce {
+
+/// Triangles that bound bodies: each belongs to a group, and every edge is run along as often one way as the other by
+/// the triangles of a group.
+struct ClosedMesh {
+    std::vector<Vec3d> points; ///< world
+    std::vector<TriangleMesh::Triangle> triangles;
+    std::vector<std::uint32_t> group; ///< of each triangle
+};
+
+/// Where the line through the voxel centres of one column, along the index z axis, crosses a triangle.
+struct Crossing {
+    std::int32_t leafX; ///< leaf coordinates of the column
+    std::int32_t leafY;
+    double z;            ///< index space
+    std::uint32_t group; ///< of the triangle
+    std::int16_t column; ///< 8 x + y within the leaf
+    std::int16_t change; ///< of the group's winding number on the way up: 1 where the line enters, -1 where it leaves
+
+    bool sameLeafColumn(const Crossing& o) const { return leafX == o.leafX && leafY == o.leafY; }
+};
+
+/// All crossings of all columns of voxel centres, in the order of leaf columns, then upwards.
+///
+/// Guarantee: a group's changes along a column add up to zero, and what is between is its winding number, whatever the
+/// shape of its triangles: corners are rounded to 2^-24 of a voxel (coarser only for boxes beyond 2^26 voxels), sides
+/// of edges are told in whole numbers, and columns that run exactly through an edge or a corner are taken to pass
+/// beside it, by the same tiny shift for all triangles (simulation of simplicity, Edelsbrunner and Muecke 1990).
+std::vector<Crossing> findCrossings(const ClosedMesh& mesh, const LinearTransform& transform, const Progress& progress);
+
+} // namespace vdbounce

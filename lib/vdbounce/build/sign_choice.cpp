@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/build/sign_choice.h"
+
+#include "vdbounce/build/mesh_tree.h"
+#include "vdbounce/build/rim_loops.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+namespace vdbounce {
+namespace {
+
+constexpr std::uint32_t kNone = MeshTopology::kNone;
+
+// Rim edges of a component whose holes' caps have less than this part of its area leave it a body.
+constexpr double kSmallHoles = 0.05;
+
+// Triangles of a component beside which its sides are looked at, half a voxel off.
+constexpr std::size_t kProbes = 48;
+constexpr double kProbeVx = 0.5;
+
+// A winding number this near to a half tells nothing.
+constexpr double kUnclear = 0.2;
+
+// The part of its probes that must tell the sides apart.
+constexpr double kClearShare = 0.5;
+
+struct Decision {
+    SignMethod method;
+    const char* reason;
+};
+
+// Of each component's holes, were they circles.
+std::vector<double> holeAreas(const MeshTopology& topology, const std::vector<Vec3d>& points)
+{
+    std::vector<double> area(topology.components.size(), 0.0);
+    for (const RimLoop& loop : findRimLoops(topology)) area[loop.component] += circleArea(loop, points);
+    return area;
+}
+
+// The open components as a mesh of their own, to be asked for winding numbers and crossings.
+class Prober {
+public:
+    Prober(const MeshTopology& topology, const std::vector<Vec3d>& points, const std::vector<char>& open)
+        : topology_(topology)
+    {
+        mesh_.points = points;
+        for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
+            const std::uint32_t component = topology.component[t];
+            if (component != kNone && open[component] != 0) mesh_.triangles.push_back(topology.triangles[t]);
+        }
+        tree_ = std::make_unique<const MeshTree>(mesh_);
+        byComponent_.resize(topology.components.size());
+        for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
+            const std::uint32_t component = topology.component[t];
+            if (component != kNone && open[component] != 0) byComponent_[component].push_back(t);
+        }
+    }
+
+    Decision decide(std::uint32_t component, double offset) const
+    {
+        const std::vector<std::uint32_t>& triangles = byComponent_[component];
+        const std::size_t stride = std::max<std::size_t>(1, triangles.size() / kProbes);
+        std::size_t asked = 0;
+        std::size_t byWinding = 0;
+        std::size_t byParity = 0;
+        for (std::size_t i = 0; i < triangles.size(); i += stride) {
+            const auto& corners = topology_.triangles[triangles[i]];
+            const Vec3d& a = mesh_.points[corners[0]];
+            const Vec3d& b = mesh_.points[corners[1]];
+            const Vec3d& c = mesh_.points[corners[2]];
+            const Vec3d across = (b - a).cross(c - a);
+            if (!(across.norm() > 0.0)) continue;
+            const Vec3d step = offset * across.normalized();
+            const Vec3d middle = (a + b + c) / 3.0;
+            ++asked;
+            byWinding += windingTells(middle + step, middle - step) ? 1 : 0;
+            byParity += tree_->raysInside(middle + step) % MeshTree::kRays == 0 &&
+                                tree_->raysInside(middle - step) % MeshTree::kRays == 0 &&
+                                tree_->raysInside(middle + step) != tree_->raysInside(middle - step)
+                            ? 1
+                            : 0;
+        }
+        const double needed = kClearShare * double(asked);
+        if (asked > 0 && double(byWinding) >= needed)
+            return {SignMethod::Winding, "open, but winding numbers tell its sides apart"};
+        if (asked > 0 && double(byParity) >= needed)
+            return {SignMethod::Parity, "open, and only crossings of rays tell its sides apart"};
+        return {SignMethod::Unsigned, "open, and it encloses nothing"};
+    }
+
+private:
+    bool windingTells(const Vec3d& one, const Vec3d& other) const
+    {
+        const double a = std::abs(tree_->windingNumber(one));
+        const double b = std::abs(tree_->windingNumber(other));
+        return std::abs(a - 0.5) > kUnclear && std::abs(b - 0.5) > kUnclear && (a > 0.5) != (b > 0.5);
+    }
+
+    const MeshTopology& topology_;
+    TriangleMesh mesh_;
+    std::unique_ptr<const MeshTree> tree_;
+    std::vector<std::vector<std::uint32_t>> byComponent_;
+};
+
+void summarize(ComponentSigns& signs, const MeshTopology& topology, const std::vector<Decision>& decisions)
+{
+    std::map<std::pair<SignMethod, std::string>, SignChoice> choices;
+    std::map<SignMethod, double> area;
+    for (std::size_t c = 0; c < decisions.size(); ++c) {
+        signs.method.push_back(decisions[c].method);
+        SignChoice& choice = choices[{decisions[c].method, decisions[c].reason}];
+        choice.method = decisions[c].method;
+        choice.reason = decisions[c].reason;
+        ++choice.components;
+        choice.triangles += topology.components[c].triangles;
+        area[decisions[c].method] += topology.components[c].area;
+    }
+    double most = -1.0;
+    for (const auto& [method, sum] : area) {
+        if (sum > most) signs.overall = method;
+        most = std::max(most, sum);
+    }
+    for (const auto& entry : choices) signs.choices.push_back(entry.second);
+}
+
+} // namespace
+
+std::vector<char> ComponentSigns::having(SignMethod wanted) const
+{
+    std::vector<char> flags(method.size());
+    std::transform(method.begin(), method.end(), flags.begin(),
+                   [&](SignMethod m) { return m == wanted ? char(1) : char(0); });
+    return flags;
+}
+
+bool ComponentSigns::needsRays(const MeshTopology& topology) const
+{
+    for (std::size_t c = 0; c < method.size(); ++c) {
+        if (method[c] == SignMethod::Parity && topology.components[c].openEdges > 0) return true;
+    }
+    return false;
+}
+
+ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d>& points, double voxelSize)
+{
+    const std::vector<double> holes = holeAreas(topology, points);
+    std::vector<Decision> decisions;
+    std::vector<char> open(topology.components.size(), 0);
+    bool anyOpen = false;
+    for (std::size_t c = 0; c < topology.components.size(); ++c) {
+        const MeshTopology::Component& component = topology.components[c];
+        if (component.bounded) {
+            decisions.push_back({SignMethod::Winding, component.turned > 0 ? "closed, once its faces were made to agree"
+                                                                           : "closed, and its faces agree"});
+        } else if (component.openEdges == 0) {
+            decisions.push_back({SignMethod::Parity, "closed, but its faces cannot be made to agree"});
+        } else if (component.orientable && holes[c] < kSmallHoles * component.area) {
+            decisions.push_back({SignMethod::Winding, "open, but its holes are small"});
+        } else {
+            decisions.push_back({SignMethod::Unsigned, ""});
+            open[c] = 1;
+            anyOpen = true;
+        }
+    }
+    if (anyOpen) {
+        const Prober prober(topology, points, open);
+        for (std::uint32_t c = 0; c < open.size(); ++c) {
+            if (open[c] != 0) decisions[c] = prober.decide(c, kProbeVx * voxelSize);
+        }
+    }
+    ComponentSigns signs;
+    summarize(signs, topology, decisions);
+    return signs;
+}
+
+const char* signMethodName(SignMethod method)
+{
+    switch (method) {
+    case SignMethod::Auto: return "auto";
+    case SignMethod::Winding: return "winding";
+    case SignMethod::Parity: return "parity";
+    case SignMethod::Flood: return "flood";
+    case SignMethod::Unsigned: return "unsigned";
+    }
+    return "";
+}
+
+} // namespace vdbounce
