@@ -8,6 +8,9 @@
 
 namespace vdbounce::bench {
 
+/// Bytes in the unit "MB" of cases.
+constexpr double kMegabyte = 1e6;
+
 /// The same work done by someone else, in the same run.
 struct Peer {
     std::string name;

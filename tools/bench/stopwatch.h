@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <time.h>
 #include <vector>
 
 namespace vdbounce::bench {
@@ -18,6 +19,14 @@ template <class Work> double seconds(const Work& work)
     const auto start = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Processor time that all threads of this process have taken so far: two threads that work for a second take two.
+inline double processorSeconds()
+{
+    timespec time{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 template <class Work> double nanosecondsAPoint(std::size_t count, const Work& work)

@@ -25,6 +25,7 @@ void addCollide(CLI::App& app, const CommonOptions& common);
 void addRender(CLI::App& app, const CommonOptions& common);
 void addSlice(CLI::App& app, const CommonOptions& common);
 void addBench(CLI::App& app, const CommonOptions& common);
+void addBenchMesh(CLI::App& bench, const CommonOptions& common); // a kind of bench
 
 /// Runs `body` with the number of threads that the user asked for.
 void runWith(const CommonOptions& common, const std::function<void()>& body);

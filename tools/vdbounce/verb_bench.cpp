@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/bench_collide.h"
 #include "bench/bench_field.h"
-#include "bench/machine.h"
+#include "bench_report.h"
 #include "option_values.h"
 #include "progress_bar.h"
-#include "report.h"
 
 #include "vdbounce/build/mesh_to_level_set.h"
 #include "vdbounce/io/grid_file.h"
@@ -53,38 +52,6 @@ std::vector<bench::FieldSubject> subjectsOf(const BenchArguments& arguments, con
     return subjects;
 }
 
-Json toJson(const bench::Case& result)
-{
-    Json json = {{"name", result.name}, {"unit", result.unit}, {"value", result.value}};
-    if (result.peer) {
-        json["peer"] = {{"name", result.peer->name}, {"value", result.peer->value}};
-        json["ratio"] = result.ratio();
-    }
-    return json;
-}
-
-std::string toText(const bench::Case& result)
-{
-    std::string text = result.name + ": " + rounded(result.value) + " " + result.unit;
-    if (result.peer) {
-        text += "; " + result.peer->name + " " + rounded(result.peer->value) + ", ratio " + rounded(result.ratio());
-    }
-    return text;
-}
-
-void reportCases(const CommonOptions& common, const bench::Cases& cases)
-{
-    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
-    std::string text = json["machine"].get<std::string>();
-    for (const bench::Case& result : cases) {
-        json["cases"].push_back(toJson(result));
-        text += "\n" + toText(result);
-    }
-    report(common, json, text);
-}
-
-void append(bench::Cases& all, const bench::Cases& cases) { all.insert(all.end(), cases.begin(), cases.end()); }
-
 void runBenchField(const BenchArguments& arguments, const CommonOptions& common)
 {
     ProgressBar progress(common, "bench field");
@@ -110,14 +77,6 @@ void runBenchCollide(const BenchArguments& arguments, const CommonOptions& commo
         warn(common, std::string("the bunny is left out: there is no ") + kBunny + " here");
     }
     reportCases(common, cases);
-}
-
-void addRepetitions(CLI::App& verb, int& repetitions)
-{
-    verb.add_option("--repetitions", repetitions, "Runs, of which the median is printed")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str()
-        ->type_name("N");
 }
 
 void addBenchField(CLI::App& bench, const CommonOptions& common)
@@ -156,6 +115,7 @@ void addBench(CLI::App& app, const CommonOptions& common)
     verb->require_subcommand(1);
     verb->footer("Example:\n  vdbounce bench field --json");
     addBenchField(*verb, common);
+    addBenchMesh(*verb, common);
     addBenchCollide(*verb, common);
 }
 
