@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/box.h"
 #include "vdbounce/build/nearest_in_leaf.h"
+#include "vdbounce/build/reach_test.h"
 #include "vdbounce/build/triangle_distance.h"
 
 #include <algorithm>
@@ -26,12 +27,6 @@ constexpr std::size_t kTrianglesPerLook = 65536;
 
 // Below this many leaves a side parts are not worth a task of their own.
 constexpr int kSmallestTask = 2;
-
-// An axis-aligned box in floats, relative to the search's origin, that is never smaller than what it stands for.
-struct FloatBox {
-    std::array<float, 3> min;
-    std::array<float, 3> max;
-};
 
 // A cube of leaves, 2^level on a side.
 struct Cube {
@@ -125,9 +120,7 @@ private:
         split(cube, list, lists);
         TriangleList().swap(list);
         const auto child = [&](unsigned which) {
-            const int half = cube.side() / 2;
-            const Cube part{cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)),
-                            cube.level - 1};
+            const Cube part = childOf(cube, which);
             if (lists[which].empty()) {
                 counter_->add(std::min(total_, std::uint64_t(1) << (3 * std::min(part.level, 20))));
                 return;
@@ -141,31 +134,39 @@ private:
         }
     }
 
-    // Each child's triangles, in order: those that come as near to one of its voxels as any may have to look.
+    // One of the eight halves of a cube.
+    static Cube childOf(const Cube& cube, unsigned which)
+    {
+        const int half = cube.side() / 2;
+        return {cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)), cube.level - 1};
+    }
+
+    // Each child's triangles, in order: those that come within reach of one of its voxels.
     void split(const Cube& cube, const TriangleList& list, std::array<TriangleList, 8>& lists) const
     {
-        std::array<FloatBox, 8> children;
+        EightBoxes children;
         for (unsigned which = 0; which < 8; ++which) {
-            const int half = cube.side() / 2;
-            const Box box =
-                boxOf({cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)), cube.level - 1});
+            const Box box = boxOf(childOf(cube, which));
             for (int axis = 0; axis < 3; ++axis) {
-                children[which].min[std::size_t(axis)] = float(box.min[axis] - origin_[axis]);
-                children[which].max[std::size_t(axis)] = float(box.max[axis] - origin_[axis]);
+                children.min[axis][which] = float(box.min[axis] - origin_[axis]);
+                children.max[axis][which] = float(box.max[axis] - origin_[axis]);
             }
         }
-        for (std::uint32_t t : list) {
-            const FloatBox& triangle = boxes_[t];
-            for (unsigned which = 0; which < 8; ++which) {
-                float squared = 0.0f;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const float apart = std::max(std::max(children[which].min[axis] - triangle.max[axis],
-                                                          triangle.min[axis] - children[which].max[axis]),
-                                                 0.0f);
-                    squared += apart * apart;
-                }
-                if (squared <= reachSquared_) lists[which].push_back(t);
+        std::vector<std::uint8_t> reached(list.size());
+        findReached(boxes_.data(), list.data(), list.size(), children, reachSquared_, reached.data());
+        std::array<std::size_t, 8> counts{};
+        for (std::uint8_t bits : reached) {
+            for (unsigned which = 0; which < 8; ++which) counts[which] += bits >> which & 1u;
+        }
+        for (unsigned which = 0; which < 8; ++which) {
+            // One more, because each is written before it is known to be wanted.
+            lists[which].resize(counts[which] + 1);
+            std::uint32_t* to = lists[which].data();
+            for (std::size_t i = 0; i < list.size() && counts[which] > 0; ++i) {
+                *to = list[i];
+                to += reached[i] >> which & 1u;
             }
+            lists[which].pop_back();
         }
     }
 
@@ -214,7 +215,7 @@ private:
     Vec3d origin_ = Vec3d::Zero(); // of the boxes in floats
     float margin_ = 0.0f;
     float reachSquared_ = 0.0f;
-    std::vector<FloatBox> boxes_;
+    std::vector<FloatBox> boxes_; // of the triangles, relative to origin_
     std::uint64_t total_ = 0;
     ProgressCounter* counter_ = nullptr;
     std::mutex adding_;

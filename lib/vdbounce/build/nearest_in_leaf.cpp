@@ -20,70 +20,101 @@ namespace vdbounce {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Row = hn::CappedTag<float, 8>; // voxels along z, a whole row where the processor has the width
-using RowIndex = hn::RebindToSigned<Row>;
+// Voxels side by side: half a row along z, a row, or two neighbouring rows, as wide as the processor is.
+using Span = hn::CappedTag<float, 16>;
+using SpanIndex = hn::RebindToSigned<Span>;
+using V = hn::Vec<Span>;
 
-// One linear function along a row of voxels, and its change from one row to the next.
-struct Form {
-    hn::Vec<Row> row;
-    float stepY;
+// How a span lies in a slice of 8 x 8 voxels along y and z.
+struct SpanShape {
+    int rows; // that it covers, at least one
+    int cols;
 
-    Form(const TriangleForms& forms, int number, int lane, hn::Vec<Row> z, float x, float y)
+    SpanShape() : rows(std::max(1, int(hn::Lanes(Span())) / 8)), cols(std::min(8, int(hn::Lanes(Span())))) {}
+    V offsetY() const { return hn::ConvertTo(Span(), hn::ShiftRight<3>(hn::Iota(SpanIndex(), 0))); }
+    V offsetZ() const { return hn::ConvertTo(Span(), hn::And(hn::Iota(SpanIndex(), 0), hn::Set(SpanIndex(), 7))); }
+};
+
+// The functions of one triangle along a span, in the order of TriangleForms.
+struct Forms {
+    V at[TriangleForms::kForms];
+
+    // At x = 0 and the span that begins at y, z.
+    HWY_INLINE Forms(const TriangleForms& forms, int lane, const SpanShape& shape, int y, int z)
     {
-        const Row d;
-        const float* gradient = forms.gradient[number][0] + lane;
-        const float along = gradient[0] * x + gradient[TriangleForms::kLanes] * y + forms.constant[number][lane];
-        row = hn::Add(hn::Mul(hn::Set(d, gradient[2 * TriangleForms::kLanes]), z), hn::Set(d, along));
-        stepY = gradient[TriangleForms::kLanes];
+        const Span d;
+        const V ys = hn::Add(shape.offsetY(), hn::Set(d, float(y)));
+        const V zs = hn::Add(shape.offsetZ(), hn::Set(d, float(z)));
+        for (int i = 0; i < TriangleForms::kForms; ++i) {
+            const V constant = hn::Set(d, forms.constant[i][lane]);
+            const V alongY = hn::Mul(hn::Set(d, forms.gradient[i][1][lane]), ys);
+            at[i] = hn::Add(hn::Add(constant, alongY), hn::Mul(hn::Set(d, forms.gradient[i][2][lane]), zs));
+        }
     }
-    void toNextRow() { row = hn::Add(row, hn::Set(Row(), stepY)); }
+
+    HWY_INLINE void moveBy(const V (&step)[TriangleForms::kForms])
+    {
+        for (int i = 0; i < TriangleForms::kForms; ++i) at[i] = hn::Add(at[i], step[i]);
+    }
+    HWY_INLINE void moveAlongX(const TriangleForms& forms, int lane, float voxels)
+    {
+        for (int i = 0; i < TriangleForms::kForms; ++i)
+            at[i] = hn::Add(at[i], hn::Set(Span(), forms.gradient[i][0][lane] * voxels));
+    }
 };
 
 // Squared distance within the plane to one edge, from the functions "across" (outwards) and "before" its start.
-HWY_INLINE hn::Vec<Row> edgeDistance(hn::Vec<Row> across, hn::Vec<Row> before, hn::Vec<Row> minusLength)
+HWY_INLINE V edgeDistance(V across, V before, V minusLength)
 {
-    const auto beyond = hn::Max(hn::Max(before, hn::Sub(minusLength, before)), hn::Zero(Row()));
+    const V beyond = hn::Max(hn::Max(before, hn::Sub(minusLength, before)), hn::Zero(Span()));
     return hn::Add(hn::Mul(across, across), hn::Mul(beyond, beyond));
 }
 
-// All rows of one x and some z within the triangle's reach.
-HWY_INLINE void searchSlice(const TriangleForms& forms, int lane, std::uint32_t triangle, int x, int z,
-                            NearestInLeaf& nearest)
+HWY_INLINE V squaredDistance(const Forms& forms, const V (&minusLength)[3])
 {
-    const Row d;
-    const RowIndex di;
-    const int firstY = forms.low[1][lane];
+    const V* across = forms.at + 1;
+    const V* before = forms.at + 4;
+    const V outside = hn::Max(hn::Max(across[0], across[1]), across[2]);
+    const V edge = hn::Min(hn::Min(edgeDistance(across[0], before[0], minusLength[0]),
+                                   edgeDistance(across[1], before[1], minusLength[1])),
+                           edgeDistance(across[2], before[2], minusLength[2]));
+    const V inPlane = hn::IfThenElseZero(hn::Ge(outside, hn::Zero(Span())), edge);
+    return hn::Add(hn::Mul(forms.at[0], forms.at[0]), inPlane);
+}
+
+// All voxels within the triangle's reach.
+HWY_INLINE void searchTriangle(const TriangleForms& forms, int lane, std::uint32_t triangle, NearestInLeaf& nearest)
+{
+    const Span d;
+    const SpanIndex di;
+    const SpanShape shape;
+    const int firstY = forms.low[1][lane] / shape.rows * shape.rows;
     const int lastY = forms.high[1][lane];
-    const auto zs = hn::Iota(d, float(z));
-    Form height(forms, 0, lane, zs, float(x), float(firstY));
-    Form across[3] = {{forms, 1, lane, zs, float(x), float(firstY)},
-                      {forms, 2, lane, zs, float(x), float(firstY)},
-                      {forms, 3, lane, zs, float(x), float(firstY)}};
-    Form before[3] = {{forms, 4, lane, zs, float(x), float(firstY)},
-                      {forms, 5, lane, zs, float(x), float(firstY)},
-                      {forms, 6, lane, zs, float(x), float(firstY)}};
-    const hn::Vec<Row> minusLength[3] = {hn::Set(d, forms.minusLength[0][lane]), hn::Set(d, forms.minusLength[1][lane]),
-                                         hn::Set(d, forms.minusLength[2][lane])};
+    const V minusLength[3] = {hn::Set(d, forms.minusLength[0][lane]), hn::Set(d, forms.minusLength[1][lane]),
+                              hn::Set(d, forms.minusLength[2][lane])};
     const auto number = hn::Set(di, static_cast<std::int32_t>(triangle));
-    float* squared = nearest.squared + 64 * x + 8 * firstY + z;
-    auto* found = reinterpret_cast<std::int32_t*>(nearest.triangle) + 64 * x + 8 * firstY + z;
-    for (int y = firstY; y <= lastY; ++y, squared += 8, found += 8) {
-        const auto outside = hn::Max(hn::Max(across[0].row, across[1].row), across[2].row);
-        const auto edge = hn::Min(hn::Min(edgeDistance(across[0].row, before[0].row, minusLength[0]),
-                                          edgeDistance(across[1].row, before[1].row, minusLength[1])),
-                                  edgeDistance(across[2].row, before[2].row, minusLength[2]));
-        const auto inPlane = hn::IfThenElseZero(hn::Ge(outside, hn::Zero(d)), edge);
-        const auto distance = hn::Add(hn::Mul(height.row, height.row), inPlane);
-        const auto best = hn::Load(d, squared);
-        const auto nearer = hn::Lt(distance, best);
-        if (!hn::AllFalse(d, nearer)) {
-            hn::Store(hn::Min(distance, best), d, squared);
-            hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), number, hn::Load(di, found)), di, found);
-        }
-        height.toNextRow();
-        for (int edgeNumber = 0; edgeNumber < 3; ++edgeNumber) {
-            across[edgeNumber].toNextRow();
-            before[edgeNumber].toNextRow();
+    V stepY[TriangleForms::kForms];
+    for (int i = 0; i < TriangleForms::kForms; ++i)
+        stepY[i] = hn::Set(d, forms.gradient[i][1][lane] * float(shape.rows));
+    for (int z = 0; z < 8; z += shape.cols) {
+        const Forms first(forms, lane, shape, firstY, z);
+        for (int x = forms.low[0][lane]; x <= forms.high[0][lane]; ++x) {
+            Forms here = first;
+            here.moveAlongX(forms, lane, float(x));
+            float* squared = nearest.squared + 64 * x + 8 * firstY + z;
+            auto* found = reinterpret_cast<std::int32_t*>(nearest.triangle) + 64 * x + 8 * firstY + z;
+            for (int y = firstY; y <= lastY; y += shape.rows) {
+                const V distance = squaredDistance(here, minusLength);
+                const V best = hn::Load(d, squared);
+                const auto nearer = hn::Lt(distance, best);
+                if (!hn::AllFalse(d, nearer)) {
+                    hn::Store(hn::Min(distance, best), d, squared);
+                    hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), number, hn::Load(di, found)), di, found);
+                }
+                here.moveBy(stepY);
+                squared += 8 * shape.rows;
+                found += 8 * shape.rows;
+            }
         }
     }
 }
@@ -96,14 +127,7 @@ void searchLeaf(const TriangleMesh& mesh, const std::uint32_t* list, std::size_t
     for (std::size_t begin = 0; begin < count; begin += kChunk) {
         const std::size_t size = std::min(kChunk, count - begin);
         makeForms(mesh, list + begin, size, place, forms);
-        for (std::size_t i = 0; i < size; ++i) {
-            const int lane = int(i);
-            if (forms.low[1][lane] > forms.high[1][lane]) continue;
-            for (int z = 0; z < 8; z += int(hn::Lanes(Row()))) {
-                for (int x = forms.low[0][lane]; x <= forms.high[0][lane]; ++x)
-                    searchSlice(forms, lane, list[begin + i], x, z, nearest);
-            }
-        }
+        for (std::size_t i = 0; i < size; ++i) searchTriangle(forms, int(i), list[begin + i], nearest);
     }
 }
 
