@@ -28,24 +28,34 @@ struct Grained {
     double z;
 };
 
+struct BoxSum : Box {
+    BoxSum& operator+=(const BoxSum& other)
+    {
+        add(other);
+        return *this;
+    }
+    using Box::add;
+};
+
 // Index coordinates in grains from a base voxel.
 class Graining {
 public:
     Graining(const ClosedMesh& mesh, const LinearTransform& transform)
     {
-        Box box;
-        std::vector<Vec3d> index(mesh.points.size());
-        forEachIndex(index.size(), kPointsPerTask,
-                     [&](std::size_t p) { index[p] = transform.toIndex(mesh.points[p]); });
-        for (const Vec3d& p : index) box.add(p);
+        points_.resize(mesh.pointCount());
+        const BoxSum box = reduceBlocks(points_.size(), kPointsPerTask, BoxSum{}, [&](IndexRange range) {
+            BoxSum part;
+            for (std::size_t p = range.begin; p < range.end; ++p) part.add(transform.toIndex(mesh.point(p)));
+            return part;
+        });
         base_ = box.min.array().floor();
         const double largest = (box.max - base_).maxCoeff() + 1.0;
         bits_ = std::min(kFinestBits, kAllBits - int(std::ceil(std::log2(largest))));
-        points_.resize(index.size());
         const double grains = std::ldexp(1.0, bits_);
-        forEachIndex(index.size(), kPointsPerTask, [&](std::size_t p) {
-            const Vec3d local = index[p] - base_;
-            points_[p] = {std::llround(local.x() * grains), std::llround(local.y() * grains), index[p].z()};
+        forEachIndex(points_.size(), kPointsPerTask, [&](std::size_t p) {
+            const Vec3d index = transform.toIndex(mesh.point(p));
+            const Vec3d local = (index - base_) * grains;
+            points_[p] = {std::int64_t(std::nearbyint(local.x())), std::int64_t(std::nearbyint(local.y())), index.z()};
         });
     }
 
@@ -160,7 +170,7 @@ std::vector<Crossing> findCrossings(const ClosedMesh& mesh, const LinearTransfor
         CrossingFinder finder(points, parts[block]);
         for (std::size_t t = range.begin; t < range.end; ++t) {
             if (t % 256 == 0) throwIfStopped(progress);
-            finder.add(mesh.triangles[t], mesh.group[t]);
+            if (mesh.group[t] != ClosedMesh::kNone) finder.add(mesh.triangles[t], mesh.group[t]);
         }
     });
     std::size_t total = 0;

@@ -13,9 +13,15 @@ namespace vdbounce {
 /// Triangles that bound bodies: each belongs to a group, and every edge is run along as often one way as the other by
 /// the triangles of a group.
 struct ClosedMesh {
-    std::vector<Vec3d> points; ///< world
+    static constexpr std::uint32_t kNone = 0xffffffffu;
+
+    const std::vector<Vec3d>* points = nullptr; ///< of the mesh it was made of, world
+    std::vector<Vec3d> tips;                    ///< further points, numbered on from those
     std::vector<TriangleMesh::Triangle> triangles;
-    std::vector<std::uint32_t> group; ///< of each triangle
+    std::vector<std::uint32_t> group; ///< of each triangle; kNone for those that are no part of it
+
+    std::size_t pointCount() const { return points->size() + tips.size(); }
+    const Vec3d& point(std::size_t p) const { return p < points->size() ? (*points)[p] : tips[p - points->size()]; }
 };
 
 /// Where the line through the voxel centres of one column, along the index z axis, crosses a triangle.

@@ -25,9 +25,8 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh, SignMethod sign, const LinearTr
             {sign != SignMethod::Winding, 1, boundingBox(mesh), std::make_unique<const Searchable>(mesh)});
         return;
     }
-    std::vector<Vec3d> points;
-    const MeshTopology topology = findTopologyMended(mesh, kTornVx * transform.smallestVoxelSize(), points);
-    const ComponentSigns signs = chooseSigns(topology, points, transform.smallestVoxelSize());
+    MeshTopology topology = findTopologyMended(mesh, kTornVx * transform.smallestVoxelSize());
+    const ComponentSigns signs = chooseSigns(topology, mesh.points, transform.smallestVoxelSize());
     const std::vector<char> sheet = signs.having(SignMethod::Unsigned);
     std::vector<char> solid(sheet.size());
     std::transform(sheet.begin(), sheet.end(), solid.begin(), [](char flag) { return flag != 0 ? char(0) : char(1); });
@@ -38,7 +37,7 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh, SignMethod sign, const LinearTr
     if (signs.needsRays(topology)) {
         bodies_.push_back({true, 1, boundingBox(solids), std::make_unique<const Searchable>(solids)});
     } else {
-        SolidGroups groups = groupSolids(topology, points, solid);
+        SolidGroups groups = groupSolids(std::move(topology), mesh.points, solid);
         findCavities(groups, findCrossings(groups.mesh, transform, Progress::none()));
         addBodies(groups);
     }
@@ -50,9 +49,10 @@ void MeshOracle::addBodies(const SolidGroups& solids)
 {
     std::vector<TriangleMesh> parts(solids.groups.size());
     for (std::size_t t = 0; t < solids.ownTriangles; ++t) {
+        if (solids.mesh.group[t] == ClosedMesh::kNone) continue;
         TriangleMesh& part = parts[solids.mesh.group[t]];
         const auto first = static_cast<std::uint32_t>(part.points.size());
-        for (std::uint32_t p : solids.mesh.triangles[t]) part.points.push_back(solids.mesh.points[p]);
+        for (std::uint32_t p : solids.mesh.triangles[t]) part.points.push_back(solids.mesh.point(p));
         part.triangles.push_back({first, first + 1, first + 2});
     }
     for (std::size_t g = 0; g < parts.size(); ++g) {

@@ -79,10 +79,9 @@ private:
 
     void automatic()
     {
-        std::vector<Vec3d> points;
-        const MeshTopology topology = findTopologyMended(mesh_, kTornVx * transform_.smallestVoxelSize(), points);
+        MeshTopology topology = findTopologyMended(mesh_, kTornVx * transform_.smallestVoxelSize());
         throwIfStopped(progress_);
-        const ComponentSigns signs = chooseSigns(topology, points, transform_.smallestVoxelSize());
+        const ComponentSigns signs = chooseSigns(topology, mesh_.points, transform_.smallestVoxelSize());
         result_.sign = signs.overall;
         result_.choices = signs.choices;
         warnAboutMesh(topology, signs, options_.thicknessVx, result_.warnings);
@@ -97,7 +96,7 @@ private:
             sheetTriangles.empty() ? allTriangles(mesh_) : trianglesOf(topology, solid);
         if (solidTriangles.empty()) return;
         if (signs.needsRays(topology)) return byRegions(solidTriangles, InsideTest::Parity, false);
-        byColumns(solidTriangles, groupSolids(topology, points, solid), true);
+        byColumns(solidTriangles, groupSolids(std::move(topology), mesh_.points, solid), true);
     }
 
     // All triangles as the file has them, as one body.
@@ -111,15 +110,16 @@ private:
             // Whichever way its faces look, they are not asked.
             topology.components.front().orientable = topology.components.front().bounded = false;
         }
-        byColumns(allTriangles(mesh_), groupSolids(topology, mesh_.points, {1}), false);
+        byColumns(allTriangles(mesh_), groupSolids(std::move(topology), mesh_.points, {1}), false);
     }
 
     void byColumns(const TriangleNumbers& triangles, SolidGroups solids, bool cavities)
     {
-        leaves_ = measure(triangles, std::max(exterior_, interior_));
-        addMissingLeaves(sheets_, leaves_);
         const std::vector<Crossing> crossings = findCrossings(solids.mesh, transform_, progress_);
         if (cavities) warnAboutCavities(findCavities(solids, crossings), result_.warnings);
+        solids.mesh = ClosedMesh(); // not to be held beside the leaves
+        leaves_ = measure(triangles, std::max(exterior_, interior_));
+        addMissingLeaves(sheets_, leaves_);
         signs_ = signByColumns(leaves_, solids, crossings, transform_, options_.confidence, progress_);
         warnAboutDoubt(signs_, cavities, result_.warnings);
         addSplitLeaves();

@@ -43,7 +43,7 @@ public:
         if (!copies.empty()) edges = MeshEdges(result_.triangles, points_.size(), use_);
         nameComponents(edges);
         inspect(edges);
-        if (anyDisagree_) turnAround();
+        if (anyDisagree_) turnAround(edges);
         findRim(edges);
         measure();
         return std::move(result_);
@@ -88,15 +88,12 @@ private:
 
     void inspect(const MeshEdges& edges)
     {
-        neighbour_.assign(3 * use_.size(), kNone);
         edges.forEachEdge([&](std::uint32_t, const MeshEdges::Side* first, const MeshEdges::Side* last) {
             MeshTopology::Component& component = result_.components[result_.component[first->side / 3]];
             const std::size_t uses = std::size_t(last - first);
             if (uses % 2 == 1) ++component.openEdges;
             if (uses > 2) ++component.nonManifoldEdges;
             if (uses != 2) return;
-            neighbour_[first->side] = first[1].side;
-            neighbour_[first[1].side] = first->side;
             if (runsUpwards(first->side) == runsUpwards(first[1].side)) anyDisagree_ = true;
         });
     }
@@ -108,11 +105,18 @@ private:
     }
 
     // Walks over each patch of triangles joined along edges of two, turning those that disagree with the first.
-    void turnAround()
+    void turnAround(const MeshEdges& edges)
     {
+        std::vector<std::uint32_t> neighbour(3 * use_.size(), kNone); // the other side on an edge of two
+        edges.forEachEdge([&](std::uint32_t, const MeshEdges::Side* first, const MeshEdges::Side* last) {
+            if (last - first != 2) return;
+            neighbour[first->side] = first[1].side;
+            neighbour[first[1].side] = first->side;
+        });
         enum : char { Unseen, Kept, Turned };
         std::vector<char> way(use_.size(), Unseen);
         std::vector<std::uint32_t> patch;
+        std::vector<std::uint32_t> toBeTurned;
         for (std::uint32_t seed = 0; seed < use_.size(); ++seed) {
             if (use_[seed] == 0 || way[seed] != Unseen) continue;
             patch.assign(1, seed);
@@ -123,7 +127,7 @@ private:
                 const std::uint32_t t = patch[i];
                 (way[t] == Kept ? kept : turned) += areaOf(t);
                 for (std::uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
-                    const std::uint32_t other = neighbour_[side];
+                    const std::uint32_t other = neighbour[side];
                     if (other == kNone) continue;
                     const bool agrees = runsUpwards(side) != runsUpwards(other);
                     const char wanted = agrees ? way[t] : (way[t] == Kept ? char(Turned) : char(Kept));
@@ -137,14 +141,13 @@ private:
             }
             const char toTurn = turned > kept ? char(Kept) : char(Turned);
             for (std::uint32_t t : patch) {
-                if (way[t] == toTurn) toBeTurned_.push_back(t);
+                if (way[t] == toTurn) toBeTurned.push_back(t);
             }
         }
-        for (std::uint32_t t : toBeTurned_) {
+        for (std::uint32_t t : toBeTurned) {
             std::swap(result_.triangles[t][1], result_.triangles[t][2]);
             ++result_.components[result_.component[t]].turned;
         }
-        std::sort(toBeTurned_.begin(), toBeTurned_.end());
     }
 
     // Which way a side ran is told by where its triangle's corners are now; turning a triangle exchanges the names of
@@ -196,8 +199,6 @@ private:
     const std::vector<Vec3d>& points_;
     std::vector<char> use_;
     MeshTopology result_;
-    std::vector<std::uint32_t> neighbour_; // the other side on an edge of two
-    std::vector<std::uint32_t> toBeTurned_;
     bool anyDisagree_ = false;
 };
 
@@ -248,9 +249,8 @@ MeshTopology findTopologyAsIs(const TriangleMesh& mesh)
     return result;
 }
 
-MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance, std::vector<Vec3d>& points)
+MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance)
 {
-    points = mesh.points;
     MeshTopology torn = findTopology(mesh);
     if (torn.rim.empty()) return torn;
     std::vector<char> onRim(mesh.points.size(), 0);

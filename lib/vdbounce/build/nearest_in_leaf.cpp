@@ -75,9 +75,9 @@ HWY_INLINE V squaredDistance(const Forms& forms, const V (&minusLength)[3])
     const V* across = forms.at + 1;
     const V* before = forms.at + 4;
     const V outside = hn::Max(hn::Max(across[0], across[1]), across[2]);
-    const V edge = hn::Min(hn::Min(edgeDistance(across[0], before[0], minusLength[0]),
-                                   edgeDistance(across[1], before[1], minusLength[1])),
-                           edgeDistance(across[2], before[2], minusLength[2]));
+    const V edge = hn::Min(
+        hn::Min(edgeDistance(across[0], before[0], minusLength[0]), edgeDistance(across[1], before[1], minusLength[1])),
+        edgeDistance(across[2], before[2], minusLength[2]));
     const V inPlane = hn::IfThenElseZero(hn::Ge(outside, hn::Zero(Span())), edge);
     return hn::Add(hn::Mul(forms.at[0], forms.at[0]), inPlane);
 }

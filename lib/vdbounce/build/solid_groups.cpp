@@ -14,6 +14,7 @@ namespace vdbounce {
 namespace {
 
 constexpr std::uint32_t kNone = MeshTopology::kNone;
+static_assert(kNone == ClosedMesh::kNone);
 
 // Caps of less than this part of a component's own area hardly change what it holds: it is a body by itself.
 constexpr double kNearlyClosed = 0.05;
@@ -27,7 +28,7 @@ Vec3d tipOf(const RimLoop& loop, const std::vector<Vec3d>& points)
 
 class Grouping {
 public:
-    Grouping(const MeshTopology& topology, const std::vector<Vec3d>& points, const std::vector<char>& solid)
+    Grouping(MeshTopology& topology, const std::vector<Vec3d>& points, const std::vector<char>& solid)
         : topology_(topology), points_(points), solid_(solid), loops_(findRimLoops(topology))
     {
     }
@@ -35,11 +36,9 @@ public:
     SolidGroups group()
     {
         nameGroups();
-        copyTriangles();
+        takeTriangles();
         addCaps();
-        for (std::uint32_t g = 0; g < solids_.groups.size(); ++g) {
-            if (solids_.groups[g].rule == SolidGroup::Rule::Open) makeCaps(g);
-        }
+        makeCaps();
         return std::move(solids_);
     }
 
@@ -69,16 +68,13 @@ private:
         }
     }
 
-    void copyTriangles()
+    void takeTriangles()
     {
         ClosedMesh& mesh = solids_.mesh;
-        mesh.points = points_;
-        for (std::size_t t = 0; t < topology_.triangles.size(); ++t) {
-            const std::uint32_t component = topology_.component[t];
-            if (component == kNone || groupOf_[component] == kNone) continue;
-            mesh.triangles.push_back(topology_.triangles[t]);
-            mesh.group.push_back(groupOf_[component]);
-        }
+        mesh.points = &points_;
+        mesh.triangles = std::move(topology_.triangles);
+        mesh.group = std::move(topology_.component);
+        for (std::uint32_t& number : mesh.group) number = number == kNone ? kNone : groupOf_[number];
         solids_.ownTriangles = mesh.triangles.size();
     }
 
@@ -89,8 +85,8 @@ private:
             const std::uint32_t group = groupOf_[loop.component];
             // Parity needs none: its edges are even, whichever way their triangles run.
             if (group == kNone || solids_.groups[group].rule == SolidGroup::Rule::Parity) continue;
-            const auto tip = static_cast<std::uint32_t>(mesh.points.size());
-            mesh.points.push_back(tipOf(loop, points_));
+            const auto tip = static_cast<std::uint32_t>(mesh.pointCount());
+            mesh.tips.push_back(tipOf(loop, points_));
             for (std::size_t i = 0; i < loop.points.size(); ++i) {
                 mesh.triangles.push_back({tip, loop.points[(i + 1) % loop.points.size()], loop.points[i]});
                 mesh.group.push_back(group);
@@ -98,22 +94,25 @@ private:
         }
     }
 
-    void makeCaps(std::uint32_t number)
+    void makeCaps()
     {
         const ClosedMesh& mesh = solids_.mesh;
-        TriangleMesh cones;
+        std::vector<TriangleMesh> cones(solids_.groups.size());
         for (std::size_t t = solids_.ownTriangles; t < mesh.triangles.size(); ++t) {
-            if (mesh.group[t] != number) continue;
-            const auto first = static_cast<std::uint32_t>(cones.points.size());
-            for (std::uint32_t p : mesh.triangles[t]) cones.points.push_back(mesh.points[p]);
-            cones.triangles.push_back({first, first + 1, first + 2});
+            TriangleMesh& part = cones[mesh.group[t]];
+            const auto first = static_cast<std::uint32_t>(part.points.size());
+            for (std::uint32_t p : mesh.triangles[t]) part.points.push_back(mesh.point(p));
+            part.triangles.push_back({first, first + 1, first + 2});
         }
-        SolidGroup& group = solids_.groups[number];
-        group.caps = std::make_shared<const HoleCaps>(std::move(cones));
-        group.capsAreWalls = group.caps->fitAsWalls();
+        for (std::size_t g = 0; g < cones.size(); ++g) {
+            if (cones[g].triangles.empty()) continue;
+            SolidGroup& group = solids_.groups[g];
+            group.caps = std::make_shared<const HoleCaps>(std::move(cones[g]));
+            group.capsAreWalls = group.caps->fitAsWalls();
+        }
     }
 
-    const MeshTopology& topology_;
+    MeshTopology& topology_;
     const std::vector<Vec3d>& points_;
     const std::vector<char>& solid_;
     const std::vector<RimLoop> loops_;
@@ -123,7 +122,7 @@ private:
 
 } // namespace
 
-SolidGroups groupSolids(const MeshTopology& topology, const std::vector<Vec3d>& points, const std::vector<char>& solid)
+SolidGroups groupSolids(MeshTopology topology, const std::vector<Vec3d>& points, const std::vector<char>& solid)
 {
     return Grouping(topology, points, solid).group();
 }

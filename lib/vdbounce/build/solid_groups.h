@@ -40,14 +40,16 @@ struct SolidGroups {
     std::vector<SolidGroup> groups;
 };
 
+/// Takes the triangles out of `topology`, whose points are `points`, which must outlive the result.
+///
 /// Closes the holes of the components in `solid` (a flag each) and puts those that are open, but for those that nearly
-/// are closed, into one group; each of the others is its own. `points` are those that the topology was found with.
+/// are closed, into one group; each of the others is its own.
 ///
 /// Method: a cone from the middle of each hole's rim over its edges closes it, whatever its shape. Crossings then count
 /// whole windings. Where the cones lie about where the open mesh's winding number is a half (Jacobson et al. 2013) they
 /// are taken for walls. Elsewhere the cones' own winding number is taken off again (the fast winding number of Barill
 /// et al. 2018, of the cones alone): together exactly that of the open mesh.
-SolidGroups groupSolids(const MeshTopology& topology, const std::vector<Vec3d>& points, const std::vector<char>& solid);
+SolidGroups groupSolids(MeshTopology topology, const std::vector<Vec3d>& points, const std::vector<char>& solid);
 
 /// Finds which groups are walls of cavities and gives them weight -1: those that lie within an odd number of others,
 /// touching none of them, and those that face inwards and cut into others. Returns how many lie within others but face
