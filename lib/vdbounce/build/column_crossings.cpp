@@ -42,17 +42,27 @@ class Graining {
 public:
     Graining(const ClosedMesh& mesh, const LinearTransform& transform)
     {
+        // Points of no triangle may be anywhere, and must not make the grain coarser.
+        std::vector<char> used(mesh.pointCount(), 0);
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (mesh.group[t] == ClosedMesh::kNone) continue;
+            for (std::uint32_t p : mesh.triangles[t]) used[p] = 1;
+        }
         points_.resize(mesh.pointCount());
         const BoxSum box = reduceBlocks(points_.size(), kPointsPerTask, BoxSum{}, [&](IndexRange range) {
             BoxSum part;
-            for (std::size_t p = range.begin; p < range.end; ++p) part.add(transform.toIndex(mesh.point(p)));
+            for (std::size_t p = range.begin; p < range.end; ++p) {
+                if (used[p] != 0) part.add(transform.toIndex(mesh.point(p)));
+            }
             return part;
         });
+        if (box.empty()) return;
         base_ = box.min.array().floor();
         const double largest = (box.max - base_).maxCoeff() + 1.0;
         bits_ = std::min(kFinestBits, kAllBits - int(std::ceil(std::log2(largest))));
         const double grains = std::ldexp(1.0, bits_);
         forEachIndex(points_.size(), kPointsPerTask, [&](std::size_t p) {
+            if (used[p] == 0) return;
             const Vec3d index = transform.toIndex(mesh.point(p));
             const Vec3d local = (index - base_) * grains;
             points_[p] = {std::int64_t(std::nearbyint(local.x())), std::int64_t(std::nearbyint(local.y())), index.z()};
@@ -68,7 +78,7 @@ public:
     std::int64_t baseY() const { return std::int64_t(base_.y()); }
 
 private:
-    Vec3d base_;
+    Vec3d base_ = Vec3d::Zero();
     int bits_ = kFinestBits;
     std::vector<Grained> points_;
 };
