@@ -4,6 +4,8 @@
 #include "vdbounce/base/box.h"
 #include "vdbounce/base/parallel.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -101,7 +103,11 @@ EdgeSide sideOf(const Grained& u, const Grained& v, std::int64_t px, std::int64_
 
 class CrossingFinder {
 public:
-    CrossingFinder(const Graining& points, std::vector<Crossing>& found) : points_(points), found_(found) {}
+    /// `mirrored`: what runs counter-clockwise in the world runs clockwise in index space.
+    CrossingFinder(const Graining& points, bool mirrored, std::vector<Crossing>& found)
+        : points_(points), mirrored_(mirrored), found_(found)
+    {
+    }
 
     void add(const TriangleMesh::Triangle& triangle, std::uint32_t group)
     {
@@ -162,10 +168,11 @@ private:
         found_.push_back({static_cast<std::int32_t>(voxelX >> 3), static_cast<std::int32_t>(voxelY >> 3),
                           std::min(std::max(z, std::min({a.z, b.z, c.z})), std::max({a.z, b.z, c.z})), group,
                           static_cast<std::int16_t>(8 * (voxelX & 7) + (voxelY & 7)),
-                          static_cast<std::int16_t>(counterClockwise ? -1 : 1)});
+                          static_cast<std::int16_t>(counterClockwise != mirrored_ ? -1 : 1)});
     }
 
     const Graining& points_;
+    const bool mirrored_;
     std::vector<Crossing>& found_;
 };
 
@@ -174,10 +181,11 @@ private:
 std::vector<Crossing> findCrossings(const ClosedMesh& mesh, const LinearTransform& transform, const Progress& progress)
 {
     const Graining points(mesh, transform);
+    const bool mirrored = transform.indexToWorld().determinant() < 0.0;
     const std::size_t count = mesh.triangles.size();
     std::vector<std::vector<Crossing>> parts(blockCount(count, kTrianglesPerTask));
     forEachBlock(count, kTrianglesPerTask, [&](std::size_t block, IndexRange range) {
-        CrossingFinder finder(points, parts[block]);
+        CrossingFinder finder(points, mirrored, parts[block]);
         for (std::size_t t = range.begin; t < range.end; ++t) {
             if (t % 256 == 0) throwIfStopped(progress);
             if (mesh.group[t] != ClosedMesh::kNone) finder.add(mesh.triangles[t], mesh.group[t]);
