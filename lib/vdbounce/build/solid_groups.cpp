@@ -19,11 +19,16 @@ static_assert(kNone == ClosedMesh::kNone);
 // Caps of less than this part of a component's own area hardly change what it holds: it is a body by itself.
 constexpr double kNearlyClosed = 0.05;
 
+// A cone's tip is moved by this part of its rim's length, so that no flat rim's cone holds voxel centres: there its
+// winding number says nothing.
+constexpr double kOffPlane = 1e-4;
+const Vec3d kOffDirection(0.5377, 0.3183, 0.7809); // no direction of a modelled mesh is likely to be this
+
 Vec3d tipOf(const RimLoop& loop, const std::vector<Vec3d>& points)
 {
     Vec3d sum = Vec3d::Zero();
     for (std::uint32_t p : loop.points) sum += points[p];
-    return sum / double(loop.points.size());
+    return sum / double(loop.points.size()) + kOffPlane * loopLength(loop, points) * kOffDirection;
 }
 
 class Grouping {
