@@ -17,6 +17,9 @@ namespace {
 using Triangle = TriangleMesh::Triangle;
 constexpr std::uint32_t kNone = MeshTopology::kNone;
 
+// Points of a rim are moved by less than this part of the edges beside them: never to the next point of the same rim.
+constexpr double kOfRimEdge = 0.4;
+
 bool hasPointTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 class TopologyFinder {
@@ -253,10 +256,13 @@ MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance)
 {
     MeshTopology torn = findTopology(mesh);
     if (torn.rim.empty()) return torn;
-    std::vector<char> onRim(mesh.points.size(), 0);
-    for (const MeshTopology::RimEdge& edge : torn.rim) onRim[edge.from] = onRim[edge.to] = 1;
+    std::vector<double> reach(mesh.points.size(), 0.0);
+    for (const MeshTopology::RimEdge& edge : torn.rim) {
+        const double ofEdge = std::min(distance, kOfRimEdge * (mesh.points[edge.from] - mesh.points[edge.to]).norm());
+        for (std::uint32_t p : {edge.from, edge.to}) reach[p] = reach[p] > 0.0 ? std::min(reach[p], ofEdge) : ofEdge;
+    }
     std::vector<std::uint32_t> pointOf = weldEqual(mesh.points);
-    weldClose(mesh.points, onRim, distance, pointOf);
+    weldClose(mesh.points, reach, pointOf);
     MeshTopology mended = TopologyFinder(mesh, mesh.points, pointOf).find();
     if (mended.rim.size() >= torn.rim.size()) return torn;
     mended.welded = torn.welded;

@@ -63,8 +63,8 @@ MeshTopology findTopology(const TriangleMesh& mesh);
 /// The same without any repair: all triangles but those with a point twice, as the file has them, as one component.
 MeshTopology findTopologyAsIs(const TriangleMesh& mesh);
 
-/// As findTopology(), but where points of rims are closer than `distance` (world) they are taken for one, the first of
-/// them: for meshes torn along seams. So triangles beside a seam may lie that far off.
+/// As findTopology(), but where points of rims are closer than `distance` (world), and than the edges beside them are
+/// long, they are taken for one, the first of them: for meshes torn along seams. So triangles beside a seam may lie that far off.
 MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance);
 
 } // namespace vdbounce

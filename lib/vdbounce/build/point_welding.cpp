@@ -3,6 +3,7 @@
 
 #include "vdbounce/build/disjoint_sets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
@@ -35,6 +36,39 @@ std::uint64_t hashOfCell(std::int64_t x, std::int64_t y, std::int64_t z)
     return mix(mix(mix(0, std::uint64_t(x)), std::uint64_t(y)), std::uint64_t(z));
 }
 
+// Points by cells of one size. Different cells that hash alike only cost a comparison.
+class CellTable {
+public:
+    explicit CellTable(double side) : side_(side) {}
+
+    void add(std::uint32_t point, const Vec3d& at)
+    {
+        cells_[hashOfCell(cellOf(at.x()), cellOf(at.y()), cellOf(at.z()))].push_back(point);
+    }
+
+    /// Calls visit(point) for the points of all cells that a box around `at` touches.
+    template <class Visit> void forEachNear(const Vec3d& at, double reach, const Visit& visit) const
+    {
+        for (std::int64_t x = cellOf(at.x() - reach); x <= cellOf(at.x() + reach); ++x) {
+            for (std::int64_t y = cellOf(at.y() - reach); y <= cellOf(at.y() + reach); ++y) {
+                for (std::int64_t z = cellOf(at.z() - reach); z <= cellOf(at.z() + reach); ++z) {
+                    const auto cell = cells_.find(hashOfCell(x, y, z));
+                    if (cell != cells_.end()) std::for_each(cell->second.begin(), cell->second.end(), visit);
+                }
+            }
+        }
+    }
+
+private:
+    std::int64_t cellOf(double coordinate) const { return std::int64_t(std::floor(coordinate / side_)); }
+
+    double side_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+// Reaches are told apart by powers of two of the largest, down to this one; closer is the same.
+constexpr int kLevels = 40;
+
 } // namespace
 
 std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points)
@@ -52,30 +86,32 @@ std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points)
     return first;
 }
 
-void weldClose(const std::vector<Vec3d>& points, const std::vector<char>& marked, double distance,
-               std::vector<std::uint32_t>& pointOf)
+void weldClose(const std::vector<Vec3d>& points, const std::vector<double>& reach, std::vector<std::uint32_t>& pointOf)
 {
-    // Points of one cell of this size, or of neighbouring ones, may be close. Different cells that hash alike only
-    // cost a comparison.
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
-    const auto cellOf = [&](const Vec3d& p, int axis) { return std::int64_t(std::floor(p[axis] / distance)); };
-    DisjointSets sets(points.size());
+    const double longest = reach.empty() ? 0.0 : *std::max_element(reach.begin(), reach.end());
+    if (!(longest > 0.0)) return;
+    // Those that reach far come first, each by cells of the size of its reach: whatever comes later is seldom near
+    // many.
+    std::vector<std::vector<std::uint32_t>> byLevel(kLevels);
     for (std::uint32_t p = 0; p < points.size(); ++p) {
-        if (marked[p] == 0 || pointOf[p] != p) continue;
-        const Vec3d& at = points[p];
-        for (int dx = -1; dx <= 1; ++dx) {
-            for (int dy = -1; dy <= 1; ++dy) {
-                for (int dz = -1; dz <= 1; ++dz) {
-                    const auto cell =
-                        cells.find(hashOfCell(cellOf(at, 0) + dx, cellOf(at, 1) + dy, cellOf(at, 2) + dz));
-                    if (cell == cells.end()) continue;
-                    for (std::uint32_t other : cell->second) {
-                        if ((points[other] - at).squaredNorm() < distance * distance) sets.join(other, p);
-                    }
-                }
+        if (!(reach[p] > 0.0) || pointOf[p] != p) continue;
+        const int level = int(std::floor(std::log2(longest / reach[p])));
+        if (level < kLevels) byLevel[std::size_t(level)].push_back(p);
+    }
+    std::vector<CellTable> tables;
+    DisjointSets sets(points.size());
+    for (std::size_t level = 0; level < byLevel.size(); ++level) {
+        tables.emplace_back(std::ldexp(longest, -int(level)));
+        for (std::uint32_t p : byLevel[level]) {
+            for (std::size_t farther = 0; farther <= level; ++farther) {
+                if (byLevel[farther].empty()) continue;
+                tables[farther].forEachNear(points[p], reach[p], [&](std::uint32_t other) {
+                    const double close = std::min(reach[p], reach[other]);
+                    if ((points[other] - points[p]).squaredNorm() < close * close) sets.join(other, p);
+                });
             }
+            tables[level].add(p, points[p]);
         }
-        cells[hashOfCell(cellOf(at, 0), cellOf(at, 1), cellOf(at, 2))].push_back(p);
     }
     for (std::uint32_t& p : pointOf) p = sets.find(p);
 }

@@ -12,9 +12,9 @@ namespace vdbounce {
 /// the sign of zero. Linear in the number of points.
 std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points);
 
-/// Joins those of the marked points that are closer than `distance` to each other, or that a chain of such joins: all
-/// points of `pointOf` (as weldEqual() returns it) that stood for one of them stand for the first.
-void weldClose(const std::vector<Vec3d>& points, const std::vector<char>& marked, double distance,
-               std::vector<std::uint32_t>& pointOf);
+/// Joins points that are closer to each other than the `reach` of both, or that a chain of such joins: all points of
+/// `pointOf` (as weldEqual() returns it) that stood for one of them stand for the first. Where `reach` is zero nothing
+/// is joined. Linear where no more than a few points are within each other's reach.
+void weldClose(const std::vector<Vec3d>& points, const std::vector<double>& reach, std::vector<std::uint32_t>& pointOf);
 
 } // namespace vdbounce
