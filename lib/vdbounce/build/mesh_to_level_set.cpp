@@ -81,7 +81,7 @@ private:
     {
         MeshTopology topology = findTopologyMended(mesh_, kTornVx * transform_.smallestVoxelSize());
         throwIfStopped(progress_);
-        const ComponentSigns signs = chooseSigns(topology, mesh_.points, transform_.smallestVoxelSize());
+        const ComponentSigns signs = chooseSigns(topology, mesh_.points, transform_.smallestVoxelSize(), progress_);
         result_.sign = signs.overall;
         result_.choices = signs.choices;
         warnAboutMesh(topology, signs, options_.thicknessVx, result_.warnings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/sign_choice.h"
 
+#include "vdbounce/base/parallel.h"
 #include "vdbounce/build/mesh_tree.h"
 #include "vdbounce/build/rim_loops.h"
 
@@ -28,6 +29,8 @@ constexpr double kUnclear = 0.2;
 
 // The part of its probes that must tell the sides apart.
 constexpr double kClearShare = 0.5;
+
+constexpr std::size_t kComponentsPerTask = 4;
 
 struct Decision {
     SignMethod method;
@@ -65,9 +68,7 @@ public:
     {
         const std::vector<std::uint32_t>& triangles = byComponent_[component];
         const std::size_t stride = std::max<std::size_t>(1, triangles.size() / kProbes);
-        std::size_t asked = 0;
-        std::size_t byWinding = 0;
-        std::size_t byParity = 0;
+        std::vector<Probe> probes;
         for (std::size_t i = 0; i < triangles.size(); i += stride) {
             const auto& corners = topology_.triangles[triangles[i]];
             const Vec3d& a = mesh_.points[corners[0]];
@@ -77,28 +78,38 @@ public:
             if (!(across.norm() > 0.0)) continue;
             const Vec3d step = offset * across.normalized();
             const Vec3d middle = (a + b + c) / 3.0;
-            ++asked;
-            byWinding += windingTells(middle + step, middle - step) ? 1 : 0;
-            byParity += tree_->raysInside(middle + step) % MeshTree::kRays == 0 &&
-                                tree_->raysInside(middle - step) % MeshTree::kRays == 0 &&
-                                tree_->raysInside(middle + step) != tree_->raysInside(middle - step)
-                            ? 1
-                            : 0;
+            probes.push_back({middle + step, middle - step});
         }
-        const double needed = kClearShare * double(asked);
-        if (asked > 0 && double(byWinding) >= needed)
+        const auto enough = [&](const auto& tells) {
+            const auto count = std::count_if(probes.begin(), probes.end(), tells);
+            return !probes.empty() && double(count) >= kClearShare * double(probes.size());
+        };
+        if (enough([&](const Probe& probe) { return windingTells(probe); }))
             return {SignMethod::Winding, "open, but winding numbers tell its sides apart"};
-        if (asked > 0 && double(byParity) >= needed)
+        if (enough([&](const Probe& probe) { return raysTell(probe); }))
             return {SignMethod::Parity, "open, and only crossings of rays tell its sides apart"};
         return {SignMethod::Unsigned, "open, and it encloses nothing"};
     }
 
 private:
-    bool windingTells(const Vec3d& one, const Vec3d& other) const
+    // Either side of the surface.
+    struct Probe {
+        Vec3d one;
+        Vec3d other;
+    };
+
+    bool windingTells(const Probe& probe) const
     {
-        const double a = std::abs(tree_->windingNumber(one));
-        const double b = std::abs(tree_->windingNumber(other));
+        const double a = std::abs(tree_->windingNumber(probe.one));
+        const double b = std::abs(tree_->windingNumber(probe.other));
         return std::abs(a - 0.5) > kUnclear && std::abs(b - 0.5) > kUnclear && (a > 0.5) != (b > 0.5);
+    }
+
+    bool raysTell(const Probe& probe) const
+    {
+        const int a = tree_->raysInside(probe.one);
+        const int b = tree_->raysInside(probe.other);
+        return a != b && a % MeshTree::kRays == 0 && b % MeshTree::kRays == 0;
     }
 
     const MeshTopology& topology_;
@@ -146,7 +157,8 @@ bool ComponentSigns::needsRays(const MeshTopology& topology) const
     return false;
 }
 
-ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d>& points, double voxelSize)
+ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d>& points, double voxelSize,
+                           const Progress& progress)
 {
     const std::vector<double> holes = holeAreas(topology, points);
     std::vector<Decision> decisions;
@@ -169,9 +181,11 @@ ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d
     }
     if (anyOpen) {
         const Prober prober(topology, points, open);
-        for (std::uint32_t c = 0; c < open.size(); ++c) {
-            if (open[c] != 0) decisions[c] = prober.decide(c, kProbeVx * voxelSize);
-        }
+        forEachIndex(open.size(), kComponentsPerTask, [&](std::size_t c) {
+            if (open[c] == 0) return;
+            throwIfStopped(progress);
+            decisions[c] = prober.decide(static_cast<std::uint32_t>(c), kProbeVx * voxelSize);
+        });
     }
     ComponentSigns signs;
     summarize(signs, topology, decisions);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "vdbounce/base/progress.h"
 #include "vdbounce/build/mesh_topology.h"
 #include "vdbounce/build/sign_method.h"
 
@@ -29,6 +30,7 @@ struct ComponentSigns {
 /// bottle): parity; with holes of less than a twentieth of its area: winding numbers, holes and all; else it is asked
 /// half a voxel to either side of its surface: where winding numbers tell the sides apart, they decide; where five
 /// rays agree on it, parity does; where nothing does it encloses nothing and becomes a sheet (unsigned).
-ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d>& points, double voxelSize);
+ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d>& points, double voxelSize,
+                           const Progress& progress = Progress::none());
 
 } // namespace vdbounce
