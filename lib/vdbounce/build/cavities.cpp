@@ -62,35 +62,68 @@ Nesting findNesting(const SolidGroups& solids, const std::vector<Crossing>& cros
     });
 }
 
+// The same voxels, their columns along another axis.
+LinearTransform turned(const LinearTransform& transform, int axis)
+{
+    Mat3d columns;
+    for (int to = 0; to < 3; ++to) columns.col(to) = transform.indexToWorld().col((to + axis + 1) % 3);
+    return LinearTransform(columns, transform.origin());
+}
+
+struct Places {
+    std::vector<std::uint32_t> around; // how many others each group lies wholly within
+    std::vector<char> cuts;            // whether it lies in part within one
+    std::vector<char> inwards;         // whether it faces inwards, where most of the mesh faces outwards
+
+    Places(const std::vector<SolidGroup>& groups, const Nesting& nesting)
+        : around(groups.size(), 0), cuts(groups.size(), 0), inwards(groups.size(), 0)
+    {
+        for (const auto& [pair, count] : nesting.within) {
+            const auto inner = static_cast<std::uint32_t>(pair >> 32);
+            if (count == nesting.crossings.at(inner)) {
+                ++around[inner];
+            } else {
+                cuts[inner] = 1;
+            }
+        }
+        double volume = 0.0;
+        for (std::size_t g = 0; g < groups.size(); ++g) volume += around[g] == 0 ? groups[g].volume : 0.0;
+        // A mesh that is inside out as a whole is turned as a whole.
+        const double outwards = volume < 0.0 ? -1.0 : 1.0;
+        for (std::size_t g = 0; g < groups.size(); ++g) inwards[g] = groups[g].volume * outwards < 0.0 ? 1 : 0;
+    }
+
+    bool sameWay(std::size_t g) const { return around[g] % 2 == 1 && inwards[g] == 0; }
+    std::size_t countSameWay() const
+    {
+        std::size_t count = 0;
+        for (std::size_t g = 0; g < around.size(); ++g) count += sameWay(g) ? 1 : 0;
+        return count;
+    }
+};
+
 } // namespace
 
-std::size_t findCavities(SolidGroups& solids, const std::vector<Crossing>& crossings)
+std::size_t findCavities(SolidGroups& solids, const std::vector<Crossing>& crossings, const LinearTransform& transform,
+                         const Progress& progress)
 {
     auto& groups = solids.groups;
     if (groups.size() < 2) return 0;
     Nesting nesting = findNesting(solids, crossings);
-    std::vector<std::uint32_t> around(groups.size(), 0);
-    std::vector<char> cuts(groups.size(), 0);
-    double volume = 0.0;
-    for (const auto& [pair, count] : nesting.within) {
-        const auto inner = static_cast<std::uint32_t>(pair >> 32);
-        if (count == nesting.crossings[inner]) {
-            ++around[inner];
-        } else {
-            cuts[inner] = 1;
+    Places places(groups, nesting);
+    if (places.countSameWay() > 0) {
+        // Columns along one axis do not see what touches or sticks out along another.
+        for (int axis = 0; axis < 2; ++axis) {
+            throwIfStopped(progress);
+            nesting += findNesting(solids, findCrossings(solids.mesh, turned(transform, axis), progress));
         }
+        places = Places(groups, nesting);
     }
-    for (std::size_t g = 0; g < groups.size(); ++g) volume += around[g] == 0 ? groups[g].volume : 0.0;
-    // A mesh that is inside out as a whole is turned as a whole.
-    const double outwards = volume < 0.0 ? -1.0 : 1.0;
-    std::size_t sameWay = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-        const bool inwards = groups[g].volume * outwards < 0.0;
-        const bool odd = around[g] % 2 == 1;
-        if (odd && !inwards) ++sameWay;
-        if (odd || (inwards && cuts[g] != 0 && around[g] == 0)) groups[g].weight = -1;
+        const bool odd = places.around[g] % 2 == 1;
+        if (odd || (places.inwards[g] != 0 && places.cuts[g] != 0 && places.around[g] == 0)) groups[g].weight = -1;
     }
-    return sameWay;
+    return places.countSameWay();
 }
 
 } // namespace vdbounce

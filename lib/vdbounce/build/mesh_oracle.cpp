@@ -38,7 +38,7 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh, SignMethod sign, const LinearTr
         bodies_.push_back({true, 1, boundingBox(solids), std::make_unique<const Searchable>(solids)});
     } else {
         SolidGroups groups = groupSolids(std::move(topology), mesh.points, solid);
-        findCavities(groups, findCrossings(groups.mesh, transform, Progress::none()));
+        findCavities(groups, findCrossings(groups.mesh, transform, Progress::none()), transform, Progress::none());
         addBodies(groups);
     }
     // Distances are to the mesh as it is, with the triangles that are no part of any component.

@@ -116,7 +116,7 @@ private:
     void byColumns(const TriangleNumbers& triangles, SolidGroups solids, bool cavities)
     {
         const std::vector<Crossing> crossings = findCrossings(solids.mesh, transform_, progress_);
-        if (cavities) warnAboutCavities(findCavities(solids, crossings), result_.warnings);
+        if (cavities) warnAboutCavities(findCavities(solids, crossings, transform_, progress_), result_.warnings);
         solids.mesh = ClosedMesh(); // not to be held beside the leaves
         leaves_ = measure(triangles, std::max(exterior_, interior_));
         addMissingLeaves(sheets_, leaves_);

@@ -53,7 +53,8 @@ SolidGroups groupSolids(MeshTopology topology, const std::vector<Vec3d>& points,
 
 /// Finds which groups are walls of cavities and gives them weight -1: those that lie within an odd number of others,
 /// touching none of them, and those that face inwards and cut into others. Returns how many lie within others but face
-/// the same way as the one around them.
-std::size_t findCavities(SolidGroups& solids, const std::vector<Crossing>& crossings);
+/// the same way as the one around them: those only where columns along all three axes say so.
+std::size_t findCavities(SolidGroups& solids, const std::vector<Crossing>& crossings, const LinearTransform& transform,
+                         const Progress& progress);
 
 } // namespace vdbounce
