@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::size_t kTrianglesPerTask = 4096;
 constexpr std::size_t kPointsPerTask = 16384;
-constexpr int kFinestBits = 24; // of a voxel's side
-constexpr int kAllBits = 50;    // products of two differences stay below 2^104, sums of them within 128 bits
+constexpr std::int64_t kRowsPerLook = 16; // rows of voxels of a triangle between two questions whether to stop
+constexpr int kFinestBits = 24;           // of a voxel's side
+constexpr int kAllBits = 50;              // products of two differences stay below 2^104, sums of them within 128 bits
 
 __extension__ using Wide = __int128;
 
@@ -104,8 +105,8 @@ EdgeSide sideOf(const Grained& u, const Grained& v, std::int64_t px, std::int64_
 class CrossingFinder {
 public:
     /// `mirrored`: what runs counter-clockwise in the world runs clockwise in index space.
-    CrossingFinder(const Graining& points, bool mirrored, std::vector<Crossing>& found)
-        : points_(points), mirrored_(mirrored), found_(found)
+    CrossingFinder(const Graining& points, bool mirrored, const Progress& progress, std::vector<Crossing>& found)
+        : points_(points), mirrored_(mirrored), progress_(progress), found_(found)
     {
     }
 
@@ -119,6 +120,7 @@ public:
         const std::int64_t firstX = points_.voxelAbove(std::min({a.x, b.x, c.x}));
         const std::int64_t lastX = points_.floorVoxel(std::max({a.x, b.x, c.x}));
         for (std::int64_t x = firstX; x <= lastX; ++x) {
+            if (x % kRowsPerLook == 0) throwIfStopped(progress_);
             const auto [low, high] = spanAt(points_.grains(x), a, b, c);
             for (std::int64_t y = points_.voxelAbove(low); y <= points_.floorVoxel(high); ++y)
                 test(x, y, a, b, c, area, group);
@@ -173,6 +175,7 @@ private:
 
     const Graining& points_;
     const bool mirrored_;
+    const Progress& progress_;
     std::vector<Crossing>& found_;
 };
 
@@ -185,7 +188,7 @@ std::vector<Crossing> findCrossings(const ClosedMesh& mesh, const LinearTransfor
     const std::size_t count = mesh.triangles.size();
     std::vector<std::vector<Crossing>> parts(blockCount(count, kTrianglesPerTask));
     forEachBlock(count, kTrianglesPerTask, [&](std::size_t block, IndexRange range) {
-        CrossingFinder finder(points, mirrored, parts[block]);
+        CrossingFinder finder(points, mirrored, progress, parts[block]);
         for (std::size_t t = range.begin; t < range.end; ++t) {
             if (t % 256 == 0) throwIfStopped(progress);
             if (mesh.group[t] != ClosedMesh::kNone) finder.add(mesh.triangles[t], mesh.group[t]);
