@@ -106,6 +106,10 @@ private:
                 boxes_[t].max[std::size_t(axis)] = float(high[axis]);
             }
         });
+        for (const FloatBox& box : boxes_) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                largest_ = std::max(largest_, double(box.max[axis]) - double(box.min[axis]));
+        }
     }
 
     void search(const Cube& cube, TriangleList list)
@@ -141,6 +145,25 @@ private:
         return {cube.leaf + half * Vec3i(int(which >> 2), int(which >> 1 & 1), int(which & 1)), cube.level - 1};
     }
 
+    // The box around a triangle that is larger than a cube and aslant holds many cubes that it comes nowhere near.
+    void lookCloser(const Cube& cube, const TriangleList& list, std::vector<std::uint8_t>& reached) const
+    {
+        std::array<Vec3d, 8> centres;
+        for (unsigned which = 0; which < 8; ++which) centres[which] = boxOf(childOf(cube, which)).centre();
+        const Vec3d size = boxOf(childOf(cube, 0)).size();
+        const double ball = 0.5 * size.norm() + band_ * kSearchMargin;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const FloatBox& box = boxes_[list[i]];
+            bool large = false;
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                large = large || double(box.max[axis] - box.min[axis]) > size[Eigen::Index(axis)];
+            for (unsigned which = 0; large && which < 8; ++which) {
+                if ((reached[i] >> which & 1u) != 0 && distanceSquared(list[i], centres[which]) > ball * ball)
+                    reached[i] = static_cast<std::uint8_t>(reached[i] & ~(1u << which));
+            }
+        }
+    }
+
     // Each child's triangles, in order: those that come within reach of one of its voxels.
     void split(const Cube& cube, const TriangleList& list, std::array<TriangleList, 8>& lists) const
     {
@@ -154,6 +177,7 @@ private:
         }
         std::vector<std::uint8_t> reached(list.size());
         findReached(boxes_.data(), list.data(), list.size(), children, reachSquared_, reached.data());
+        if (boxOf(childOf(cube, 0)).size().minCoeff() < largest_) lookCloser(cube, list, reached);
         std::array<std::size_t, 8> counts{};
         for (std::uint8_t bits : reached) {
             for (unsigned which = 0; which < 8; ++which) counts[which] += bits >> which & 1u;
@@ -168,6 +192,12 @@ private:
             }
             lists[which].pop_back();
         }
+    }
+
+    double distanceSquared(std::uint32_t t, const Vec3d& p) const
+    {
+        return (closestPointOnTriangle(p, mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)) - p)
+            .squaredNorm();
     }
 
     void measure(const Vec3i& leaf, const TriangleList& list)
@@ -216,6 +246,7 @@ private:
     float margin_ = 0.0f;
     float reachSquared_ = 0.0f;
     std::vector<FloatBox> boxes_; // of the triangles, relative to origin_
+    double largest_ = 0.0;        // side of any of them
     std::uint64_t total_ = 0;
     ProgressCounter* counter_ = nullptr;
     std::mutex adding_;
