@@ -123,6 +123,24 @@ HWY_INLINE void storeForm(TriangleForms& forms, int number, int first, const Lea
     }
 }
 
+// How far an edge's start is along its direction and how long it is, of the part of it that is no farther from the leaf
+// than any point that matters: the ends of a long edge would take all the digits that a float has.
+HWY_INLINE void storeEnds(TriangleForms& forms, int edge, int first, const LeafPlace& place, const Vector& direction,
+                          const Vector& start, D length)
+{
+    const Doubles d;
+    const int number = 4 + edge;
+    storeForm(forms, number, first, place, {hn::Neg(direction.x), hn::Neg(direction.y), hn::Neg(direction.z)}, start);
+    const double farthest = place.reach + 7.0 * place.indexToWorld.colwise().norm().sum();
+    const D low = hn::Set(d, -farthest);
+    const D high = hn::Set(d, farthest);
+    const D from = direction.dot(start);
+    const D nearFrom = hn::Min(hn::Max(from, low), high);
+    const D nearTo = hn::Min(hn::Max(hn::Add(from, length), low), high);
+    storeFloats(nearFrom, forms.constant[number] + first);
+    storeFloats(hn::Sub(nearFrom, nearTo), forms.minusLength[edge] + first);
+}
+
 HWY_INLINE void storeReach(TriangleForms& forms, int axis, int first, const LeafPlace& place, const Corners& corners)
 {
     const Doubles d;
@@ -143,8 +161,9 @@ HWY_INLINE void storeReach(TriangleForms& forms, int axis, int first, const Leaf
                forms.high[axis] + first);
 }
 
-// Edges shorter than this part of the longest have a direction that rounding turns.
-constexpr double kFlat = 1e-8;
+// A triangle lower than this part of its longest edge is that edge: rounding turns it around the edge, so that it is
+// off by no more than this part of its length.
+constexpr double kFlat = 1e-13;
 
 HWY_INLINE void makeFormsOf(const double (&at)[9][TriangleForms::kLanes], int first, const LeafPlace& place,
                             TriangleForms& forms)
@@ -158,7 +177,8 @@ HWY_INLINE void makeFormsOf(const double (&at)[9][TriangleForms::kLanes], int fi
     const Vector e = unit(ab, length, {hn::Set(d, 1.0), zero, zero});
     const Vector ac = corners.c - a;
     const D s = ac.dot(e);
-    const Vector up = ac - e * s;
+    const Vector roughlyUp = ac - e * s;
+    const Vector up = roughlyUp - e * roughlyUp.dot(e); // once more, for where it is much shorter than ac
     D t = hn::Sqrt(up.dot(up));
     // Without height it is its longest edge alone.
     t = hn::IfThenElseZero(hn::Gt(t, hn::Mul(hn::Set(d, kFlat), length)), t);
@@ -179,12 +199,9 @@ HWY_INLINE void makeFormsOf(const double (&at)[9][TriangleForms::kLanes], int fi
     storeForm(forms, 1, first, place, {hn::Neg(v.x), hn::Neg(v.y), hn::Neg(v.z)}, a);
     storeForm(forms, 2, first, place, inFrame(t, rest, lengthBc, v), corners.b);
     storeForm(forms, 3, first, place, inFrame(hn::Neg(t), s, lengthCa, v), a);
-    storeForm(forms, 4, first, place, {hn::Neg(e.x), hn::Neg(e.y), hn::Neg(e.z)}, a);
-    storeForm(forms, 5, first, place, inFrame(rest, hn::Neg(t), lengthBc, e), corners.b);
-    storeForm(forms, 6, first, place, inFrame(s, t, lengthCa, e), corners.c);
-    storeFloats(hn::Neg(length), forms.minusLength[0] + first);
-    storeFloats(hn::Neg(lengthBc), forms.minusLength[1] + first);
-    storeFloats(hn::Neg(lengthCa), forms.minusLength[2] + first);
+    storeEnds(forms, 0, first, place, e, a, length);
+    storeEnds(forms, 1, first, place, inFrame(hn::Neg(rest), t, lengthBc, e), corners.b, lengthBc);
+    storeEnds(forms, 2, first, place, inFrame(hn::Neg(s), hn::Neg(t), lengthCa, e), corners.c, lengthCa);
     storeReach(forms, 0, first, place, corners);
     storeReach(forms, 1, first, place, corners);
 }
