@@ -30,6 +30,9 @@ constexpr double kUnclear = 0.2;
 // The part of its probes that must tell the sides apart.
 constexpr double kClearShare = 0.5;
 
+// Fewer triangles do not wind around anything by themselves.
+constexpr std::size_t kFewestAround = 3;
+
 constexpr std::size_t kComponentsPerTask = 4;
 
 struct Decision {
@@ -84,8 +87,14 @@ public:
             const auto count = std::count_if(probes.begin(), probes.end(), tells);
             return !probes.empty() && double(count) >= kClearShare * double(probes.size());
         };
-        if (enough([&](const Probe& probe) { return windingTells(probe); }))
-            return {SignMethod::Winding, "open, but winding numbers tell its sides apart"};
+        const Decision winding{SignMethod::Winding, "open, but winding numbers tell its sides apart"};
+        if (enough([&](const Probe& probe) { return windingTells(*tree_, probe); })) return winding;
+        // Within others, which wind around both of its sides, it has to be asked by itself.
+        if (triangles.size() >= kFewestAround) {
+            const TriangleMesh own = ownMesh(triangles);
+            const MeshTree ownTree(own);
+            if (enough([&](const Probe& probe) { return windingTells(ownTree, probe); })) return winding;
+        }
         if (enough([&](const Probe& probe) { return raysTell(probe); }))
             return {SignMethod::Parity, "open, and only crossings of rays tell its sides apart"};
         return {SignMethod::Unsigned, "open, and it encloses nothing"};
@@ -98,10 +107,21 @@ private:
         Vec3d other;
     };
 
-    bool windingTells(const Probe& probe) const
+    TriangleMesh ownMesh(const std::vector<std::uint32_t>& triangles) const
     {
-        const double a = std::abs(tree_->windingNumber(probe.one));
-        const double b = std::abs(tree_->windingNumber(probe.other));
+        TriangleMesh own;
+        for (std::uint32_t t : triangles) {
+            const auto first = static_cast<std::uint32_t>(own.points.size());
+            for (std::uint32_t p : topology_.triangles[t]) own.points.push_back(mesh_.points[p]);
+            own.triangles.push_back({first, first + 1, first + 2});
+        }
+        return own;
+    }
+
+    static bool windingTells(const MeshTree& tree, const Probe& probe)
+    {
+        const double a = std::abs(tree.windingNumber(probe.one));
+        const double b = std::abs(tree.windingNumber(probe.other));
         return std::abs(a - 0.5) > kUnclear && std::abs(b - 0.5) > kUnclear && (a > 0.5) != (b > 0.5);
     }
 
