@@ -15,7 +15,7 @@ constexpr double kVoxel = 0.05;
 
 ThinFeatures featuresOf(const Phi& phi)
 {
-    return thinFeatures(DistanceField(levelSet(bandGrid(phi, uniformTransform(kVoxel), 24, 4.0))));
+    return thinFeatures(levelSet(bandGrid(phi, uniformTransform(kVoxel), 24, 4.0)));
 }
 
 // A plate in any direction, and what is left of space without it.
@@ -58,4 +58,23 @@ TEST_CASE("smooth shapes and right angles have nothing thin")
     };
     CHECK(featuresOf(box).walls.voxels == 0);
     CHECK(featuresOf([&](const Vec3d& p) { return -box(p); }).gaps.voxels == 0);
+}
+
+TEST_CASE("how thick thin walls and gaps are is told exactly, whether or not a voxel lies in them")
+{
+    VDBOUNCE_RANDOM(random);
+    for (int i = 0; i < 30; ++i) {
+        const Vec3d normal = i < 3 ? Vec3d(Vec3d::Unit(i)) : random.direction();
+        // Half way between two layers of voxels where it lies along them.
+        const double offset = i < 3 ? 0.5 * kVoxel : random.uniform(-0.1, 0.1);
+        for (double thicknessVx : {0.1, 0.3, 0.9}) {
+            const Phi slab = [&](const Vec3d& p) {
+                return std::abs(normal.dot(p) - offset) - 0.5 * thicknessVx * kVoxel;
+            };
+            INFO("normal " << normal.transpose() << ", offset " << offset << ", thickness " << thicknessVx);
+            CHECK(featuresOf(slab).walls.thinnest == Approx(thicknessVx * kVoxel).epsilon(1e-3));
+            CHECK(featuresOf([&](const Vec3d& p) { return -slab(p); }).gaps.thinnest ==
+                  Approx(thicknessVx * kVoxel).epsilon(1e-3));
+        }
+    }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -16,6 +17,11 @@ void report(const CommonOptions& common, const Json& json, const std::string& te
         std::cout << text << '\n';
     }
     std::cout.flush();
+}
+
+void announce(const CommonOptions& common, const std::string& text)
+{
+    if (!common.quiet && !common.json) std::cerr << "vdbounce: " << text << std::endl;
 }
 
 void warn(const CommonOptions& common, const std::string& text)
@@ -43,6 +49,28 @@ std::string rounded(double value)
     char text[32];
     std::snprintf(text, sizeof(text), "%.4g", value);
     return text;
+}
+
+std::string about(double value)
+{
+    const double unit = std::pow(10.0, std::max(0.0, std::floor(std::log10(std::max(value, 1.0))) - 2.0));
+    return grouped(static_cast<std::uint64_t>(std::round(value / unit) * unit));
+}
+
+std::string bytesText(double bytes)
+{
+    const char* const units[] = {"kB", "MB", "GB", "TB"};
+    double value = bytes / 1e3;
+    std::size_t unit = 0;
+    for (; value >= 999.5 && unit < 3; value /= 1e3) ++unit;
+    char text[32];
+    std::snprintf(text, sizeof(text), value < 9.95 ? "%.1f" : "%.0f", value);
+    return std::string(text) + " " + units[unit];
+}
+
+std::string counted(std::uint64_t count, const std::string& what)
+{
+    return grouped(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 std::string vectorText(const Vec3d& v)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report.h"
+#include "thin_report.h"
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/field/distance_field.h"
-#include "vdbounce/field/thin_features.h"
 #include "vdbounce/io/file_bytes.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/mesh_file.h"
@@ -37,27 +37,13 @@ std::string verdictOn(const LevelSetSummary& summary, const DistanceField& field
     return "fit to collide with";
 }
 
-Json thinJson(const ThinFeatures::Kind& kind)
-{
-    return {{"voxels", kind.voxels}, {"thinnest", kind.thinnest}, {"place", toJson(kind.place)}};
-}
-
-// What the voxels are too large for.
-std::string warningOf(const ThinFeatures::Kind& kind, const char* name, const char* consequence)
-{
-    if (kind.voxels == 0) return "";
-    return "; warning: " + grouped(kind.voxels) + (kind.voxels == 1 ? " voxel in " : " voxels in ") + name +
-           " about as thin as a voxel, the thinnest near " + vectorText(kind.place) + ": " + consequence +
-           ", smaller voxels would help";
-}
-
 Description describeLevelSet(const std::string& path, const std::string& gridName)
 {
     const LevelSetGrid grid = readLevelSet(path, gridName);
     const LevelSetSummary s = summarize(grid);
     const DistanceField field(grid);
     const std::string verdict = verdictOn(s, field);
-    const ThinFeatures thin = thinFeatures(field);
+    const ThinFeatures thin = thinFeatures(grid);
     Json json = {{"kind", "level set"},
                  {"name", s.name},
                  {"type", s.valueType},
@@ -73,11 +59,11 @@ Description describeLevelSet(const std::string& path, const std::string& gridNam
                  {"thin_walls", thinJson(thin.walls)},
                  {"thin_gaps", thinJson(thin.gaps)},
                  {"verdict", verdict}};
-    const std::string text = "level set '" + s.name + "' (" + s.valueType + "): voxel " + vectorText(s.voxelSize) +
-                             ", half width " + rounded(s.halfWidthVx) + " voxels, " + grouped(s.activeVoxels) +
-                             " active voxels, box " + vectorText(s.worldBox.min) + " to " + vectorText(s.worldBox.max) +
-                             "; " + verdict + warningOf(thin.walls, "walls or edges", "particles may pass") +
-                             warningOf(thin.gaps, "gaps", "particles may not pass");
+    std::string text = "level set '" + s.name + "' (" + s.valueType + "): voxel " + vectorText(s.voxelSize) +
+                       ", half width " + rounded(s.halfWidthVx) + " voxels, " + grouped(s.activeVoxels) +
+                       " active voxels, box " + vectorText(s.worldBox.min) + " to " + vectorText(s.worldBox.max) +
+                       "; " + verdict;
+    for (const std::string& warning : thinWarnings(thin, s.voxelSize.minCoeff())) text += "; warning: " + warning;
     return {json, text};
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vdbounce/field/distance_field.h"
+#include "vdbounce/base/vector.h"
+#include "vdbounce/io/level_set_grid.h"
 
 #include <cstdint>
 
@@ -11,8 +12,8 @@ namespace vdbounce {
 /// normals go wrong there (lecture, slide 26).
 struct ThinFeatures {
     struct Kind {
-        std::uint64_t voxels = 0;    ///< that lie in the middle of one
-        double thinnest = 0.0;       ///< about its thickness, world units, where there is any
+        std::uint64_t voxels = 0; ///< that lie in the middle of one
+        double thinnest = 0.0;    ///< its thickness, world units, where its sides are parallel; 0 where all are edges
         Vec3d place = Vec3d::Zero(); ///< the thinnest's, world
     };
     Kind walls;
@@ -21,7 +22,9 @@ struct ThinFeatures {
 
 /// Looks at every voxel closer to the surface than a voxel's side: on the medial axis, where central differences cancel
 /// out, it is in the middle of a wall (phi has a least value there) or of a gap. Right angles are neither; edges and
-/// creases sharper than some 65 degrees count, for they are thin. Cost: as reading the voxels.
-ThinFeatures thinFeatures(const DistanceField& field);
+/// creases sharper than some 65 degrees count, for they are thin. Walls are found whether or not a voxel's centre lies
+/// inside; a thickness is that of parallel sides, exact where the distances are and the band holds them. Cost: as
+/// reading the voxels, and some 20 nanoseconds for each voxel beside the surface.
+ThinFeatures thinFeatures(const LevelSetGrid& grid);
 
 } // namespace vdbounce
