@@ -15,9 +15,10 @@ struct ConversionEstimate {
     double cpuSeconds = 0.0;   ///< on one core of a machine of 2024, within a factor of two or three
 };
 
-/// `exterior` and `interior` are the band's half widths, world.
+/// `exterior` and `interior` are the band's half widths, world; `beside` is what other grids take, bytes a leaf. Voxels
+/// and bytes are within a factor of two, but where bands of near surfaces overlap.
 ConversionEstimate estimateConversion(const TriangleMesh& mesh, const LinearTransform& transform, double exterior,
-                                      double interior);
+                                      double interior, double beside = 0.0);
 
 /// Three quarters of the machine's memory, bytes.
 std::uint64_t defaultMaxMemory();
@@ -25,6 +26,6 @@ std::uint64_t defaultMaxMemory();
 /// Throws UsageError when the estimate is beyond `maxMemory` bytes, or the mesh's voxels are too many to be numbered;
 /// names what it would take and what there is.
 void requireConvertible(const TriangleMesh& mesh, const LinearTransform& transform, double exterior, double interior,
-                        std::uint64_t maxMemory);
+                        std::uint64_t maxMemory, double beside = 0.0);
 
 } // namespace vdbounce

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/progress.h"
 #include "vdbounce/build/sign_choice.h"
+#include "vdbounce/build/topology_memory.h"
 
 #include <algorithm>
 #include <cmath>

@@ -21,6 +21,10 @@ namespace {
 // OpenVDB refuses a scale whose determinant is below 3e-15.
 constexpr double kSmallestVoxel = 1.5e-5;
 
+// A leaf of numbers and the leaf of the grid that they become; confidences are held where there are doubts only.
+constexpr double kBytesOfClosest = 4200.0;
+constexpr double kBytesOfConfidence = 2200.0;
+
 void validate(const MeshToLevelSetOptions& options)
 {
     const auto require = [](bool good, const char* name, double value, const char* remedy) {
@@ -50,8 +54,9 @@ TriangleNumbers allTriangles(const TriangleMesh& mesh)
 // One conversion, from the mesh to the grids.
 class Conversion {
 public:
-    Conversion(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, Progress& progress)
-        : mesh_(mesh), options_(options), progress_(progress),
+    Conversion(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, TopologyMemory* memory,
+               Progress& progress)
+        : mesh_(mesh), options_(options), memory_(memory), progress_(progress),
           transform_(options.transform ? *options.transform
                                        : LinearTransform(options.voxelSize * Mat3d::Identity(), Vec3d::Zero())),
           voxel_(transform_.voxelSize().maxCoeff()), exterior_(options.exteriorVx * voxel_),
@@ -59,9 +64,17 @@ public:
     {
     }
 
+    ConversionEstimate expect() const
+    {
+        const double beside =
+            (options_.closest ? kBytesOfClosest : 0.0) + (options_.confidence ? kBytesOfConfidence : 0.0);
+        requireConvertible(mesh_, transform_, exterior_, interior_, maxMemory(), beside);
+        return estimateConversion(mesh_, transform_, exterior_, interior_, beside);
+    }
+
     MeshToLevelSetResult run()
     {
-        requireConvertible(mesh_, transform_, exterior_, interior_, maxMemory());
+        expect();
         throwIfStopped(progress_);
         result_.sign = options_.sign;
         switch (options_.sign) {
@@ -79,7 +92,8 @@ private:
 
     void automatic()
     {
-        MeshTopology topology = findTopologyMended(mesh_, kTornVx * transform_.smallestVoxelSize());
+        const double torn = kTornVx * transform_.smallestVoxelSize();
+        MeshTopology topology = memory_ != nullptr ? memory_->find(mesh_, torn) : findTopologyMended(mesh_, torn);
         throwIfStopped(progress_);
         const ComponentSigns signs = chooseSigns(topology, mesh_.points, transform_.smallestVoxelSize(), progress_);
         result_.sign = signs.overall;
@@ -185,6 +199,7 @@ private:
 
     const TriangleMesh& mesh_;
     const MeshToLevelSetOptions& options_;
+    TopologyMemory* const memory_; // null where nothing is kept
     Progress& progress_;
     const LinearTransform transform_;
     const double voxel_; // the longest side, world
@@ -202,7 +217,20 @@ private:
 MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options, Progress& progress)
 {
     validate(options);
-    return Conversion(mesh, options, progress).run();
+    return Conversion(mesh, options, nullptr, progress).run();
+}
+
+MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options,
+                                    TopologyMemory& memory, Progress& progress)
+{
+    validate(options);
+    return Conversion(mesh, options, &memory, progress).run();
+}
+
+ConversionEstimate expectConversion(const TriangleMesh& mesh, const MeshToLevelSetOptions& options)
+{
+    validate(options);
+    return Conversion(mesh, options, nullptr, Progress::none()).expect();
 }
 
 } // namespace vdbounce

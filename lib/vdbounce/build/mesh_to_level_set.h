@@ -2,7 +2,9 @@
 #pragma once
 
 #include "vdbounce/base/progress.h"
+#include "vdbounce/build/conversion_estimate.h"
 #include "vdbounce/build/sign_method.h"
+#include "vdbounce/build/topology_memory.h"
 #include "vdbounce/field/linear_transform.h"
 #include "vdbounce/io/level_set_grid.h"
 #include "vdbounce/io/sidecar_grid.h"
@@ -65,5 +67,12 @@ struct MeshToLevelSetResult {
 /// larger; memory of the finished grid, and some 110 bytes a triangle.
 MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options,
                                     Progress& progress = Progress::none());
+
+/// The same result, bit by bit, for one mesh of several with the same triangles: see TopologyMemory.
+MeshToLevelSetResult meshToLevelSet(const TriangleMesh& mesh, const MeshToLevelSetOptions& options,
+                                    TopologyMemory& memory, Progress& progress = Progress::none());
+
+/// What meshToLevelSet() will take. Throws what it would throw before it starts.
+ConversionEstimate expectConversion(const TriangleMesh& mesh, const MeshToLevelSetOptions& options);
 
 } // namespace vdbounce

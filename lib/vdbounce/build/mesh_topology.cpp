@@ -17,9 +17,6 @@ namespace {
 using Triangle = TriangleMesh::Triangle;
 constexpr std::uint32_t kNone = MeshTopology::kNone;
 
-// Points of a rim are moved by less than this part of the edges beside them: never to the next point of the same rim.
-constexpr double kOfRimEdge = 0.4;
-
 bool hasPointTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
 class TopologyFinder {
@@ -48,7 +45,7 @@ public:
         inspect(edges);
         if (anyDisagree_) turnAround(edges);
         findRim(edges);
-        measure();
+        measureComponents(result_, points_);
         return std::move(result_);
     }
 
@@ -59,7 +56,7 @@ public:
         for (char used : use_) result_.component.push_back(used != 0 ? 0 : kNone);
         inspect(edges);
         findRim(edges);
-        measure();
+        measureComponents(result_, points_);
         return std::move(result_);
     }
 
@@ -178,27 +175,6 @@ private:
         });
     }
 
-    void measure()
-    {
-        std::vector<Vec3d> from(result_.components.size(), Vec3d::Zero());
-        std::vector<char> known(result_.components.size(), 0);
-        for (std::uint32_t t = 0; t < use_.size(); ++t) {
-            const std::uint32_t number = result_.component[t];
-            if (number == kNone) continue;
-            const Triangle& c = result_.triangles[t];
-            // Volumes are summed from a point of the component, where they cancel best.
-            if (known[number] == 0) from[number] = points_[c[0]];
-            known[number] = 1;
-            const Vec3d a = points_[c[0]] - from[number];
-            const Vec3d b = points_[c[1]] - from[number];
-            const Vec3d d = points_[c[2]] - from[number];
-            MeshTopology::Component& component = result_.components[number];
-            ++component.triangles;
-            component.area += 0.5 * (b - a).cross(d - a).norm();
-            component.volume += a.dot(b.cross(d)) / 6.0;
-        }
-    }
-
     const std::vector<Vec3d>& points_;
     std::vector<char> use_;
     MeshTopology result_;
@@ -236,9 +212,33 @@ TriangleMesh partOf(const TriangleMesh& mesh, const std::vector<std::uint32_t>& 
     return part;
 }
 
-MeshTopology findTopology(const TriangleMesh& mesh)
+void measureComponents(MeshTopology& topology, const std::vector<Vec3d>& points)
 {
-    const std::vector<std::uint32_t> pointOf = weldEqual(mesh.points);
+    for (MeshTopology::Component& component : topology.components) {
+        component.triangles = 0;
+        component.area = component.volume = 0.0;
+    }
+    std::vector<Vec3d> from(topology.components.size(), Vec3d::Zero());
+    for (std::size_t t = 0; t < topology.triangles.size(); ++t) {
+        const std::uint32_t number = topology.component[t];
+        if (number == kNone) continue;
+        const Triangle& c = topology.triangles[t];
+        MeshTopology::Component& component = topology.components[number];
+        // Volumes are summed from a point of the component, where they cancel best.
+        if (component.triangles == 0) from[number] = points[c[0]];
+        const Vec3d a = points[c[0]] - from[number];
+        const Vec3d b = points[c[1]] - from[number];
+        const Vec3d d = points[c[2]] - from[number];
+        ++component.triangles;
+        component.area += 0.5 * (b - a).cross(d - a).norm();
+        component.volume += a.dot(b.cross(d)) / 6.0;
+    }
+}
+
+MeshTopology findTopology(const TriangleMesh& mesh) { return findTopology(mesh, weldEqual(mesh.points)); }
+
+MeshTopology findTopology(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pointOf)
+{
     MeshTopology result = TopologyFinder(mesh, mesh.points, pointOf).find();
     countPoints(mesh, pointOf, result);
     return result;
@@ -250,24 +250,6 @@ MeshTopology findTopologyAsIs(const TriangleMesh& mesh)
     MeshTopology result = TopologyFinder(mesh, mesh.points, pointOf).findAsIs();
     countPoints(mesh, pointOf, result);
     return result;
-}
-
-MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance)
-{
-    MeshTopology torn = findTopology(mesh);
-    if (torn.rim.empty()) return torn;
-    std::vector<double> reach(mesh.points.size(), 0.0);
-    for (const MeshTopology::RimEdge& edge : torn.rim) {
-        const double ofEdge = std::min(distance, kOfRimEdge * (mesh.points[edge.from] - mesh.points[edge.to]).norm());
-        for (std::uint32_t p : {edge.from, edge.to}) reach[p] = reach[p] > 0.0 ? std::min(reach[p], ofEdge) : ofEdge;
-    }
-    std::vector<std::uint32_t> pointOf = weldEqual(mesh.points);
-    weldClose(mesh.points, reach, pointOf);
-    MeshTopology mended = TopologyFinder(mesh, mesh.points, pointOf).find();
-    if (mended.rim.size() >= torn.rim.size()) return torn;
-    mended.welded = torn.welded;
-    mended.unused = torn.unused;
-    return mended;
 }
 
 } // namespace vdbounce

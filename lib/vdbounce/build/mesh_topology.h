@@ -63,8 +63,11 @@ MeshTopology findTopology(const TriangleMesh& mesh);
 /// The same without any repair: all triangles but those with a point twice, as the file has them, as one component.
 MeshTopology findTopologyAsIs(const TriangleMesh& mesh);
 
-/// As findTopology(), but where points of rims are closer than `distance` (world), and than the edges beside them are
-/// long, they are taken for one, the first of them: for meshes torn along seams. So triangles beside a seam may lie that far off.
-MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance);
+/// As findTopology(), where it is known which points are one: `pointOf` as weldEqual() returns it.
+MeshTopology findTopology(const TriangleMesh& mesh, const std::vector<std::uint32_t>& pointOf);
+
+/// Counts the triangles of each component and measures its area and volume anew, where `points` (of the mesh) have
+/// moved.
+void measureComponents(MeshTopology& topology, const std::vector<Vec3d>& points);
 
 } // namespace vdbounce

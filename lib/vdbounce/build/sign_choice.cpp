@@ -38,6 +38,7 @@ constexpr std::size_t kComponentsPerTask = 4;
 struct Decision {
     SignMethod method;
     const char* reason;
+    bool plain = false;
 };
 
 // Of each component's holes, were they circles.
@@ -147,6 +148,7 @@ void summarize(ComponentSigns& signs, const MeshTopology& topology, const std::v
         SignChoice& choice = choices[{decisions[c].method, decisions[c].reason}];
         choice.method = decisions[c].method;
         choice.reason = decisions[c].reason;
+        choice.plain = decisions[c].plain;
         ++choice.components;
         choice.triangles += topology.components[c].triangles;
         area[decisions[c].method] += topology.components[c].area;
@@ -187,8 +189,9 @@ ComponentSigns chooseSigns(const MeshTopology& topology, const std::vector<Vec3d
     for (std::size_t c = 0; c < topology.components.size(); ++c) {
         const MeshTopology::Component& component = topology.components[c];
         if (component.bounded) {
-            decisions.push_back({SignMethod::Winding, component.turned > 0 ? "closed, once its faces were made to agree"
-                                                                           : "closed, and its faces agree"});
+            decisions.push_back(component.turned > 0
+                                    ? Decision{SignMethod::Winding, "closed, once its faces were made to agree"}
+                                    : Decision{SignMethod::Winding, "closed, and its faces agree", true});
         } else if (component.openEdges == 0) {
             decisions.push_back({SignMethod::Parity, "closed, but its faces cannot be made to agree"});
         } else if (component.orientable && holes[c] < kSmallHoles * component.area) {

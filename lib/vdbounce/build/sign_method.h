@@ -24,6 +24,7 @@ struct SignChoice {
     std::size_t components = 0;
     std::size_t triangles = 0;
     std::string reason; ///< "closed", "its holes are small", ...
+    bool plain = false; ///< closed, and its faces agree as they are: there was nothing to choose
 };
 
 } // namespace vdbounce

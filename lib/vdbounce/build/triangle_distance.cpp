@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vdbounce {
@@ -61,6 +62,33 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, con
     // In a sliver rounding moves the projection; its edges are never far and always certain.
     const Vec3d beside = closestOnEdges(p, a, b, c);
     return (beside - p).squaredNorm() < (within - p).squaredNorm() ? beside : within;
+}
+
+Vec3d closestWeights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    const Vec3d at = closestPointOnTriangle(p, a, b, c);
+    const Vec3d normal = (b - a).cross(c - a);
+    if (normal.squaredNorm() > kSliver * (b - a).squaredNorm() * (c - a).squaredNorm()) {
+        const double weightB = (at - a).cross(c - a).dot(normal) / normal.squaredNorm();
+        const double weightC = (b - a).cross(at - a).dot(normal) / normal.squaredNorm();
+        return Vec3d(1.0 - weightB - weightC, weightB, weightC);
+    }
+    const Vec3d* corners[3] = {&a, &b, &c};
+    int longest = 0;
+    double length2 = 0.0;
+    for (int edge = 0; edge < 3; ++edge) {
+        const double edge2 = (*corners[(edge + 1) % 3] - *corners[edge]).squaredNorm();
+        if (edge2 > length2) longest = edge;
+        length2 = std::max(length2, edge2);
+    }
+    Vec3d weights = Vec3d::Unit(longest);
+    if (!(length2 > 0.0)) return weights;
+    const int other = (longest + 1) % 3;
+    const Vec3d along = *corners[other] - *corners[longest];
+    const double share = std::min(1.0, std::max(0.0, (at - *corners[longest]).dot(along) / length2));
+    weights[longest] = 1.0 - share;
+    weights[other] = share;
+    return weights;
 }
 
 double windingContribution(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)

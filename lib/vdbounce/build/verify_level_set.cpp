@@ -71,7 +71,7 @@ VerifyReport verifyLevelSet(const LevelSetGrid& handle, const TriangleMesh& mesh
 {
     const openvdb::FloatGrid& grid = toOpenVdb(handle);
     const LinearTransform transform = toLinearTransform(grid.transform());
-    const double voxel = transform.smallestVoxelSize();
+    const double voxel = transform.voxelSize().maxCoeff();
     const MeshOracle oracle(mesh, options.sign, transform, 0.5 * options.thickness);
     const std::vector<VoxelSample> samples = spreadSamples(grid, options);
     const Errors errors = reduceBlocks(samples.size(), 256, Errors{}, [&](IndexRange range) {

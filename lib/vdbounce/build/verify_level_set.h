@@ -19,7 +19,7 @@ struct VerifyOptions {
 /// How far a level set is from the mesh it was made of.
 struct VerifyReport {
     std::uint64_t samples = 0;
-    double maxErrorVx = 0.0;      ///< largest | |phi| - distance |, voxels of the smallest side
+    double maxErrorVx = 0.0;      ///< largest | |phi| - distance |, voxels of the longest side
     double rmsErrorVx = 0.0;      ///< root mean square of it, voxels
     std::uint64_t signErrors = 0; ///< voxels on the wrong side
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/field/openvdb_transform.h"
 
+#include "vdbounce/field/grid_transform.h"
+
 namespace vdbounce {
 
 // OpenVDB multiplies row vectors from the left: world = index * affine.
@@ -15,6 +17,8 @@ LinearTransform toLinearTransform(const openvdb::math::Transform& transform)
     }
     return LinearTransform(matrix, Vec3d(origin.x(), origin.y(), origin.z()));
 }
+
+LinearTransform transformOf(const LevelSetGrid& grid) { return toLinearTransform(toOpenVdb(grid).transform()); }
 
 openvdb::math::Transform::Ptr toOpenVdb(const LinearTransform& transform)
 {

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/field/linear_transform.h"
+#include "vdbounce/io/level_set_grid.h"
+
+namespace vdbounce {
+
+/// Where the voxels of a level set lie.
+LinearTransform transformOf(const LevelSetGrid& grid);
+
+} // namespace vdbounce
