@@ -28,7 +28,7 @@ interrupted() {
 "$vdbounce" mesh2ls "$source/data/bunny.obj" -o bunny.vdb --dim 64 --quiet
 "$vdbounce" emit box --min=-3,9.8,-2 --max 3,12,2 -n 200000 -o cloud.vdb --quiet
 interrupted "$vdbounce" collide --collider bunny.vdb --particles cloud.vdb -o after.vdb --steps 100000
-interrupted "$vdbounce" mesh2ls "$source/data/bunny.obj" -o fine.vdb --dim 3000
+interrupted "$vdbounce" mesh2ls "$source/data/bunny.obj" -o fine.vdb --dim 3000 --json
 test ! -e after.vdb
 test ! -e fine.vdb
 test -z "$(find . -name '*.part-*')"

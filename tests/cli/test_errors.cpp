@@ -103,7 +103,7 @@ TEST_CASE("a tolerance that is not met ends with exit code 4 and writes nothing"
 {
     const TemporaryFolder folder;
     const std::string mesh2ls = "mesh2ls " + sourcePath("data/bunny.obj") + " --dim 48 -o " + (folder / "o.vdb");
-    requireOneLine(runTool(mesh2ls + " --tolerance 1e-9vx"), 4, "tolerance");
+    requireOneLine(runTool(mesh2ls + " --tolerance 1e-9vx --json"), 4, "tolerance");
     CHECK(folder.fileCount() == 0);
     CHECK(runTool(mesh2ls + " --tolerance 1e-4vx --quiet").exitCode == 0);
 }

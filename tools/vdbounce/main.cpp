@@ -107,10 +107,14 @@ int run(int argc, char** argv)
 
 } // namespace
 
+int threadsUsed(const CommonOptions& common)
+{
+    return common.threads > 0 ? common.threads : int(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void runWith(const CommonOptions& common, const std::function<void()>& body)
 {
-    const int threads = common.threads > 0 ? common.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::size_t(threadsUsed(common)));
     body();
 }
 

@@ -6,6 +6,7 @@
 #include "vdbounce/io/number_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 
@@ -27,6 +28,18 @@ Vec3d parseVector(const std::string& name, const std::string& text)
         begin = comma + 1;
     }
     return vector;
+}
+
+// The number of bytes that a suffix stands for; 0 where it is none.
+double unitOf(char suffix)
+{
+    switch (std::toupper(static_cast<unsigned char>(suffix))) {
+    case 'K': return 1e3;
+    case 'M': return 1e6;
+    case 'G': return 1e9;
+    case 'T': return 1e12;
+    default: return 0.0;
+    }
 }
 
 template <class Target>
@@ -76,6 +89,35 @@ CLI::Option* addPixels(CLI::App& app, const std::string& name, int& width, int& 
         height = int(*h);
     };
     return app.add_option_function<std::string>(name, parse, help)->type_name("WxH");
+}
+
+CLI::Option* addSides(CLI::App& app, const std::string& name, std::optional<Vec3d>& target, const std::string& help)
+{
+    const auto parse = [&target, name](const std::string& text) {
+        const auto side = parseDouble(text);
+        const bool several = text.find(',') != std::string::npos;
+        const Vec3d sides = several ? parseVector(name, text) : Vec3d(Vec3d::Constant(side.value_or(0.0)));
+        if (!(sides.minCoeff() > 0.0) || !sides.allFinite()) {
+            throw UsageError(name, "'" + text + "' is no size of a voxel",
+                             "give a length above 0 in world units, or three with commas");
+        }
+        target = sides;
+    };
+    return app.add_option_function<std::string>(name, parse, help)->type_name("S|X,Y,Z");
+}
+
+CLI::Option* addBytes(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help)
+{
+    constexpr double kMost = 1e18; // what still fits 64 bits
+    const auto parse = [&target, name](const std::string& text) {
+        const double unit = text.empty() ? 0.0 : unitOf(text.back());
+        const auto value = parseDouble(std::string_view(text).substr(0, text.size() - (unit > 0.0 ? 1 : 0)));
+        const double bytes = value.value_or(0.0) * (unit > 0.0 ? unit : 1.0);
+        if (!(bytes >= 1.0) || bytes > kMost)
+            throw UsageError(name, "'" + text + "' is no amount of memory", "write bytes, or for example 500M or 2G");
+        target = static_cast<std::uint64_t>(bytes);
+    };
+    return app.add_option_function<std::string>(name, parse, help)->type_name("SIZE");
 }
 
 CLI::Option* addCount(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help)

@@ -14,7 +14,8 @@
 #include <vector>
 
 /// @file
-/// Options whose values the contract spells in its own way: vectors "x,y,z", lengths "0.5" or "3vx", sizes "1280x960".
+/// Options whose values the contract spells in its own way: vectors "x,y,z", lengths "0.5" or "3vx", sizes
+/// "1280x960", memory "2G".
 
 namespace vdbounce::tool {
 
@@ -22,6 +23,12 @@ CLI::Option* addVector(CLI::App& app, const std::string& name, Vec3d& target, co
 CLI::Option* addVector(CLI::App& app, const std::string& name, std::optional<Vec3d>& target, const std::string& help);
 CLI::Option* addLength(CLI::App& app, const std::string& name, std::optional<Length>& target, const std::string& help);
 CLI::Option* addPixels(CLI::App& app, const std::string& name, int& width, int& height, const std::string& help);
+
+/// The sides of a voxel, world units: three above zero, "0.1,0.1,0.2", or one for all three.
+CLI::Option* addSides(CLI::App& app, const std::string& name, std::optional<Vec3d>& target, const std::string& help);
+
+/// An amount of memory, at least a byte: "500M", "2G"; K, M, G and T are powers of 1000, as in our messages.
+CLI::Option* addBytes(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help);
 
 /// A number of particles; "1e6" is one too. At most a hundred thousand million.
 CLI::Option* addCount(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help);

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <string>
 
 #include <unistd.h>
 
@@ -13,10 +14,28 @@ namespace vdbounce::tool {
 namespace {
 
 std::atomic<bool> requested{false};
+std::atomic<bool> atOnce{false};
+std::atomic<bool> ending{false};
 constexpr int kExitInterrupted = 130;
+
+// What is printed by a handler must be there before.
+const std::string& lastWords()
+{
+    static const std::string text =
+        std::string(::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") + "vdbounce: error: " + Interrupted().what() + "\n";
+    return text;
+}
 
 void onSignal(int /*signal*/)
 {
+    if (atOnce) {
+        // Another thread's handler is at it.
+        if (ending.exchange(true)) return;
+        removeUncommittedFiles();
+        const std::string& text = lastWords();
+        if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(kExitInterrupted);
+        ::_exit(kExitInterrupted);
+    }
     if (requested.exchange(true)) {
         removeUncommittedFiles();
         ::_exit(kExitInterrupted);
@@ -34,6 +53,13 @@ void handleInterrupts()
     ::sigaction(SIGTERM, &action, nullptr);
     // A reader that went away shows as a failed write, which is reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
+}
+
+void endAtOnceWhenInterrupted()
+{
+    lastWords();
+    atOnce = true;
+    throwIfInterrupted(); // by a signal that came before
 }
 
 void throwIfInterrupted()

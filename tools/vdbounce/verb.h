@@ -27,7 +27,10 @@ void addSlice(CLI::App& app, const CommonOptions& common);
 void addBench(CLI::App& app, const CommonOptions& common);
 void addBenchMesh(CLI::App& bench, const CommonOptions& common); // a kind of bench
 
-/// Runs `body` with the number of threads that the user asked for.
+/// The number of threads that the user asked for; of all cores where they asked for none.
+int threadsUsed(const CommonOptions& common);
+
+/// Runs `body` with that number of threads.
 void runWith(const CommonOptions& common, const std::function<void()>& body);
 
 } // namespace vdbounce::tool

@@ -1,138 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "option_values.h"
-#include "progress_bar.h"
-#include "report.h"
+#include "mesh2ls_arguments.h"
+#include "mesh2ls_conversion.h"
+#include "signals.h"
+#include "stopwatch.h"
 
 #include "vdbounce/base/error.h"
-#include "vdbounce/build/mesh_to_level_set.h"
-#include "vdbounce/build/verify_level_set.h"
-#include "vdbounce/io/grid_file.h"
+#include "vdbounce/build/velocity_grid.h"
+#include "vdbounce/io/frame_files.h"
 #include "vdbounce/io/mesh_file.h"
+#include "vdbounce/scene/scene.h"
 
-#include <chrono>
+#include <map>
 #include <memory>
 
 namespace vdbounce::tool {
 namespace {
 
-struct Mesh2lsArguments {
-    std::string input;
-    std::string output;
-    std::optional<Length> voxel;
-    std::optional<int> dim;
-    std::optional<Length> band;
-    std::optional<Length> exterior;
-    std::optional<Length> interior;
-    std::optional<Length> thickness;
-    SignMethod sign = SignMethod::Auto;
-    std::string name = "surface";
-    bool half = false;
-    bool verify = false;
-    std::optional<Length> tolerance;
+struct TimedMesh {
+    TriangleMesh mesh;
+    double readSeconds = 0.0;
 };
 
-const std::map<std::string, SignMethod> kSignMethods = {{"auto", SignMethod::Auto},
-                                                        {"winding", SignMethod::Winding},
-                                                        {"parity", SignMethod::Parity},
-                                                        {"flood", SignMethod::Flood},
-                                                        {"unsigned", SignMethod::Unsigned}};
-
-double voxelSizeFor(const Mesh2lsArguments& arguments, const TriangleMesh& mesh)
+TimedMesh readTimed(const std::string& path)
 {
-    if (arguments.voxel) {
-        if (arguments.voxel->inVoxels) throw UsageError("--voxel", "is given in voxels", "give it in world units");
-        if (!(arguments.voxel->value > 0.0)) throw UsageError("--voxel", "is not positive", "give a length above 0");
-        return arguments.voxel->value;
+    Stopwatch watch;
+    TimedMesh timed;
+    timed.mesh = readMesh(path);
+    timed.readSeconds = watch.lap();
+    return timed;
+}
+
+// The meshes of a sequence, each read once, when it is first asked for.
+class FrameMeshes {
+public:
+    explicit FrameMeshes(const std::vector<FrameFile>& files) : files_(files) {}
+
+    const TimedMesh& at(std::size_t i)
+    {
+        const auto found = held_.find(i);
+        return found != held_.end() ? found->second : held_.emplace(i, readTimed(files_[i].path)).first->second;
     }
-    const double longest = boundingBox(mesh).size().maxCoeff();
-    if (!(longest > 0.0))
-        throw InputError(arguments.input, "all its points are in one place, so --dim says nothing", "give --voxel");
-    return longest / *arguments.dim;
-}
 
-MeshToLevelSetOptions optionsFor(const Mesh2lsArguments& arguments, double voxelSize)
-{
-    MeshToLevelSetOptions options;
-    options.voxelSize = voxelSize;
-    options.sign = arguments.sign;
-    options.gridName = arguments.name;
-    if (arguments.band) options.exteriorVx = options.interiorVx = arguments.band->voxels(voxelSize);
-    if (arguments.exterior) options.exteriorVx = arguments.exterior->voxels(voxelSize);
-    if (arguments.interior) options.interiorVx = arguments.interior->voxels(voxelSize);
-    if (arguments.thickness) options.thicknessVx = arguments.thickness->voxels(voxelSize);
-    return options;
-}
-
-double secondsSince(std::chrono::steady_clock::time_point& mark)
-{
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - mark).count();
-    mark = now;
-    return seconds;
-}
-
-void verify(const Mesh2lsArguments& arguments, const TriangleMesh& mesh, const MeshToLevelSetResult& result,
-            const MeshToLevelSetOptions& options, Json& json, std::string& text)
-{
-    VerifyOptions verifyOptions;
-    verifyOptions.sign = options.sign;
-    verifyOptions.thickness = options.thicknessVx * options.voxelSize;
-    verifyOptions.half = arguments.half;
-    const VerifyReport report = verifyLevelSet(result.grid, mesh, verifyOptions);
-    json["verify"] = {{"samples", report.samples},
-                      {"max_error_vx", report.maxErrorVx},
-                      {"rms_error_vx", report.rmsErrorVx},
-                      {"sign_errors", report.signErrors}};
-    text += "\nverified " + grouped(report.samples) + " voxels: largest error " + rounded(report.maxErrorVx) +
-            " voxels, rms " + rounded(report.rmsErrorVx) + ", " + grouped(report.signErrors) + " signs wrong";
-    if (!arguments.tolerance) return;
-    const double allowed = arguments.tolerance->voxels(options.voxelSize);
-    if (report.maxErrorVx > allowed || report.signErrors > 0) {
-        throw ToleranceError(arguments.output,
-                             "largest error " + rounded(report.maxErrorVx) + "vx and " + grouped(report.signErrors) +
-                                 " wrong signs, beyond --tolerance " + rounded(allowed) + "vx",
-                             "nothing was written; allow more or use another --sign");
+    // Of frame i's points, from the frames beside it.
+    std::vector<Vec3d> velocities(std::size_t i, double secondsPerFrame)
+    {
+        const std::size_t before = i > 0 ? i - 1 : i;
+        const std::size_t after = i + 1 < files_.size() ? i + 1 : i;
+        requireSame(before, i);
+        requireSame(i, after);
+        return pointVelocities(at(before).mesh, at(after).mesh, double(after - before) * secondsPerFrame);
     }
+
+    // Lets go of all before frame i.
+    void forgetBefore(std::size_t i) { held_.erase(held_.begin(), held_.lower_bound(i)); }
+
+private:
+    void requireSame(std::size_t one, std::size_t next)
+    {
+        const TriangleMesh& a = at(one).mesh;
+        const TriangleMesh& b = at(next).mesh;
+        if (a.triangles == b.triangles && a.points.size() == b.points.size()) return;
+        throw InputError(files_[next].path, "has other triangles than frame " + std::to_string(files_[one].frame),
+                         "--velocity needs the same triangles in all frames; leave it out");
+    }
+
+    const std::vector<FrameFile>& files_;
+    std::map<std::size_t, TimedMesh> held_;
+};
+
+void convertSequence(const Mesh2lsArguments& arguments, const CommonOptions& common)
+{
+    const std::vector<FrameFile> files = findFrames(arguments.input);
+    if (arguments.velocity && files.size() < 2)
+        throw InputError(arguments.input, "is one frame, and velocities need two", "leave --velocity out");
+    FrameMeshes meshes(files);
+    MeshConversion conversion(arguments, common, transformFor(arguments, meshes.at(0).mesh, files[0].path));
+    Json frames = Json::array();
+    std::map<std::string, double> seconds;
+    std::string text;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const TimedMesh& timed = meshes.at(i);
+        MeshFrame frame{files[i].path, framePath(arguments.output, files[i].frame), timed.mesh, timed.readSeconds, {}};
+        if (arguments.velocity) frame.velocities = meshes.velocities(i, arguments.secondsPerFrame());
+        ConversionReport report = conversion.convert(frame);
+        for (const char* part : {"read", "build", "write"}) seconds[part] += report.json["seconds"][part].get<double>();
+        text += (i > 0 ? "\n" : "") + report.text;
+        report.json["frame"] = files[i].frame;
+        frames.push_back(std::move(report.json));
+        meshes.forgetBefore(i);
+    }
+    Json json = {{"output", arguments.output}};
+    for (const char* key : {"triangles", "voxel_size", "active_voxels", "sign"}) json[key] = frames.back()[key];
+    json["warnings"] = Json::array();
+    for (const Json& frame : frames) {
+        for (const Json& warning : frame["warnings"]) json["warnings"].push_back(warning);
+    }
+    json["seconds"] = {{"read", seconds["read"]}, {"build", seconds["build"]}, {"write", seconds["write"]}};
+    json["frames"] = std::move(frames);
+    report(common, json, text);
+}
+
+void convertOne(const Mesh2lsArguments& arguments, const CommonOptions& common)
+{
+    const TimedMesh timed = readTimed(arguments.input);
+    MeshConversion conversion(arguments, common, transformFor(arguments, timed.mesh, arguments.input));
+    const ConversionReport done =
+        conversion.convert({arguments.input, arguments.output, timed.mesh, timed.readSeconds, {}});
+    report(common, done.json, done.text);
 }
 
 void runMesh2ls(const Mesh2lsArguments& arguments, const CommonOptions& common)
 {
-    if (arguments.voxel.has_value() == arguments.dim.has_value()) {
-        throw UsageError("vdbounce mesh2ls", "exactly one of --voxel and --dim is needed",
-                         "give for example --dim 128");
-    }
-    if (arguments.band && (arguments.exterior || arguments.interior)) {
-        throw UsageError("vdbounce mesh2ls", "--band excludes --exterior and --interior", "give one or the other");
-    }
-    requireOutput(arguments.output, {"vdb"}, {arguments.input});
-    auto mark = std::chrono::steady_clock::now();
-    const TriangleMesh mesh = readMesh(arguments.input);
-    const double readSeconds = secondsSince(mark);
-
-    ProgressBar progress(common, "mesh2ls");
-    const double voxelSize = voxelSizeFor(arguments, mesh);
-    const MeshToLevelSetOptions options = optionsFor(arguments, voxelSize);
-    const MeshToLevelSetResult result = meshToLevelSet(mesh, options, progress);
-    const double buildSeconds = secondsSince(mark);
-
-    const LevelSetSummary summary = summarize(result.grid);
-    Json json = {{"output", arguments.output},
-                 {"triangles", mesh.triangles.size()},
-                 {"voxel_size", voxelSize},
-                 {"active_voxels", summary.activeVoxels},
-                 {"sign", signMethodName(result.sign)},
-                 {"warnings", result.warnings}};
-    std::string text = arguments.output + ": " + grouped(mesh.triangles.size()) + " triangles, voxel " +
-                       rounded(voxelSize) + ", " + grouped(summary.activeVoxels) + " active voxels, sign by " +
-                       signMethodName(result.sign) + ", " + rounded(readSeconds + buildSeconds) + " s";
-    for (const std::string& warning : result.warnings) warn(common, arguments.input + ": " + warning);
-    if (arguments.verify || arguments.tolerance) verify(arguments, mesh, result, options, json, text);
-    throwIfStopped(progress);
-
-    mark = std::chrono::steady_clock::now();
-    writeLevelSet(result.grid, arguments.output, {arguments.half, {result.closest, result.confidence}});
-    json["seconds"] = {{"read", readSeconds}, {"build", buildSeconds}, {"write", secondsSince(mark)}};
-    report(common, json, text);
+    requireSound(arguments);
+    // All that is written is written at the end, or whole frames.
+    endAtOnceWhenInterrupted();
+    arguments.isSequence() ? convertSequence(arguments, common) : convertOne(arguments, common);
 }
 
 } // namespace
@@ -141,25 +123,7 @@ void addMesh2ls(CLI::App& app, const CommonOptions& common)
 {
     auto* verb = app.add_subcommand("mesh2ls", "Turn a triangle mesh into a level set");
     auto arguments = std::make_shared<Mesh2lsArguments>();
-    verb->add_option("IN", arguments->input, "Mesh: .obj, .stl, .ply or .off")->required();
-    verb->add_option("-o,--output", arguments->output, "Level set to write, .vdb")->required();
-    addLength(*verb, "--voxel", arguments->voxel, "Voxel size, world units");
-    verb->add_option("--dim", arguments->dim, "Voxels on the longest side of the mesh's box")
-        ->check(CLI::Range(1, 1000000))
-        ->type_name("N");
-    addLength(*verb, "--band", arguments->band, "Half width of the narrow band on both sides (default 3vx)");
-    addLength(*verb, "--exterior", arguments->exterior, "Half width outside");
-    addLength(*verb, "--interior", arguments->interior, "Half width inside");
-    addChoice(*verb, "--sign", arguments->sign, kSignMethods,
-              "How inside is told from outside: auto, winding, parity, flood, unsigned");
-    addLength(*verb, "--thickness", arguments->thickness,
-              "Thickness of the sheet that --sign unsigned makes (default 2vx)");
-    verb->add_option("--name", arguments->name, "Name of the grid")->capture_default_str();
-    verb->add_flag("--half", arguments->half, "Store values as 16-bit floats");
-    verb->add_flag("--verify", arguments->verify, "Compare the result with exact distances");
-    addLength(*verb, "--tolerance", arguments->tolerance,
-              "With the comparison: exit 4 when off by more, and write nothing");
-    verb->footer("Example:\n  vdbounce mesh2ls bunny.obj -o bunny.vdb --dim 128");
+    addMesh2lsOptions(*verb, *arguments);
     verb->callback([arguments, &common] { runWith(common, [&] { runMesh2ls(*arguments, common); }); });
 }
 
