@@ -74,6 +74,7 @@ TEST_CASE("a sequence of meshes becomes the level sets that each of them becomes
         CHECK(readFile(folder / numbered("ball.", frame, ".vdb")) == readFile(single));
     }
     CHECK(json["seconds"]["build"].get<double>() == Approx(seconds));
+    CHECK(convertFrames(folder, "--like " + (folder / "ball.0008.vdb")).exitCode == 2);
 }
 
 TEST_CASE("frames that are missing, and triangles that change where velocities are wanted, are named")

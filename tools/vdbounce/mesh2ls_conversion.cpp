@@ -132,8 +132,8 @@ ConversionReport MeshConversion::convert(const MeshFrame& frame)
     const MeshToLevelSetResult result = arguments_.isSequence()
                                             ? meshToLevelSet(frame.mesh, options_, memory_, progress)
                                             : meshToLevelSet(frame.mesh, options_, progress);
-    const double buildSeconds = watch.lap();
     const ThinFeatures thin = thinFeatures(result.grid);
+    const double buildSeconds = watch.lap();
     for (const std::string& warning : result.warnings) warn(common_, frame.input + ": " + warning);
     ConversionReport conversion = describe(frame, result, frame.readSeconds + buildSeconds);
     conversion.json["warnings"] = result.warnings;

@@ -73,6 +73,8 @@ void convertSequence(const Mesh2lsArguments& arguments, const CommonOptions& com
     const std::vector<FrameFile> files = findFrames(arguments.input);
     if (arguments.velocity && files.size() < 2)
         throw InputError(arguments.input, "is one frame, and velocities need two", "leave --velocity out");
+    for (const FrameFile& file : files)
+        requireOutput(framePath(arguments.output, file.frame), {"vdb"}, {arguments.like});
     FrameMeshes meshes(files);
     MeshConversion conversion(arguments, common, transformFor(arguments, meshes.at(0).mesh, files[0].path));
     Json frames = Json::array();
