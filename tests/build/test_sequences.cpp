@@ -99,7 +99,6 @@ TEST_CASE("another mesh, and points that meet or part, are found anew")
     const TriangleMesh box = boxMesh(Vec3d::Ones());
     TopologyMemory memory;
     for (const TriangleMesh* mesh : {&ball, &parted, &ball, &box, &ball}) {
-        std::vector<Vec3d> points;
         const MeshTopology fresh = findTopologyMended(*mesh, 0.001);
         const MeshTopology& known = memory.find(*mesh, 0.001);
         CHECK(known.triangles == fresh.triangles);

@@ -11,8 +11,8 @@
 namespace vdbounce {
 
 /// As findTopology(), but where points of rims are closer than `distance` (world), and than the edges beside them are
-/// long, they are taken for one, the first of them: for meshes torn along seams. So triangles beside a seam may lie that
-/// far off.
+/// long, they are taken for one, the first of them: for meshes torn along seams. So triangles beside a seam may lie
+/// that far off.
 MeshTopology findTopologyMended(const TriangleMesh& mesh, double distance);
 
 /// Keeps how a mesh hangs together for the next one, as frames of an animation follow each other.
