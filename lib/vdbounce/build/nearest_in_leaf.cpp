@@ -39,27 +39,21 @@ struct SpanShape {
 struct Forms {
     V at[TriangleForms::kForms];
 
-    // At x = 0 and the span that begins at y, z.
-    HWY_INLINE Forms(const TriangleForms& forms, int lane, const SpanShape& shape, int y, int z)
+    // Where y is 0.
+    HWY_INLINE Forms(const TriangleForms& forms, int lane, const SpanShape& shape, float x, float z)
     {
         const Span d;
-        const V ys = hn::Add(shape.offsetY(), hn::Set(d, float(y)));
-        const V zs = hn::Add(shape.offsetZ(), hn::Set(d, float(z)));
+        const V zs = hn::Add(shape.offsetZ(), hn::Set(d, z));
         for (int i = 0; i < TriangleForms::kForms; ++i) {
-            const V constant = hn::Set(d, forms.constant[i][lane]);
-            const V alongY = hn::Mul(hn::Set(d, forms.gradient[i][1][lane]), ys);
-            at[i] = hn::Add(hn::Add(constant, alongY), hn::Mul(hn::Set(d, forms.gradient[i][2][lane]), zs));
+            const float along = forms.gradient[i][0][lane] * x + forms.constant[i][lane];
+            at[i] = hn::Add(hn::Set(d, along), hn::Mul(hn::Set(d, forms.gradient[i][2][lane]), zs));
         }
     }
 
-    HWY_INLINE void moveBy(const V (&step)[TriangleForms::kForms])
+    // A step from row to row would be rounded otherwise where spans are two rows wide.
+    HWY_INLINE Forms(const Forms& first, const V (&alongY)[TriangleForms::kForms], V ys)
     {
-        for (int i = 0; i < TriangleForms::kForms; ++i) at[i] = hn::Add(at[i], step[i]);
-    }
-    HWY_INLINE void moveAlongX(const TriangleForms& forms, int lane, float voxels)
-    {
-        for (int i = 0; i < TriangleForms::kForms; ++i)
-            at[i] = hn::Add(at[i], hn::Set(Span(), forms.gradient[i][0][lane] * voxels));
+        for (int i = 0; i < TriangleForms::kForms; ++i) at[i] = hn::Add(first.at[i], hn::Mul(alongY[i], ys));
     }
 };
 
@@ -93,17 +87,16 @@ HWY_INLINE void searchTriangle(const TriangleForms& forms, int lane, std::uint32
     const V minusLength[3] = {hn::Set(d, forms.minusLength[0][lane]), hn::Set(d, forms.minusLength[1][lane]),
                               hn::Set(d, forms.minusLength[2][lane])};
     const auto number = hn::Set(di, static_cast<std::int32_t>(triangle));
-    V stepY[TriangleForms::kForms];
-    for (int i = 0; i < TriangleForms::kForms; ++i)
-        stepY[i] = hn::Set(d, forms.gradient[i][1][lane] * float(shape.rows));
+    V alongY[TriangleForms::kForms];
+    for (int i = 0; i < TriangleForms::kForms; ++i) alongY[i] = hn::Set(d, forms.gradient[i][1][lane]);
+    const V offsetY = shape.offsetY();
     for (int z = 0; z < 8; z += shape.cols) {
-        const Forms first(forms, lane, shape, firstY, z);
         for (int x = forms.low[0][lane]; x <= forms.high[0][lane]; ++x) {
-            Forms here = first;
-            here.moveAlongX(forms, lane, float(x));
+            const Forms first(forms, lane, shape, float(x), float(z));
             float* squared = nearest.squared + 64 * x + 8 * firstY + z;
             auto* found = reinterpret_cast<std::int32_t*>(nearest.triangle) + 64 * x + 8 * firstY + z;
             for (int y = firstY; y <= lastY; y += shape.rows) {
+                const Forms here(first, alongY, hn::Add(offsetY, hn::Set(d, float(y))));
                 const V distance = squaredDistance(here, minusLength);
                 const V best = hn::Load(d, squared);
                 const auto nearer = hn::Lt(distance, best);
@@ -111,7 +104,6 @@ HWY_INLINE void searchTriangle(const TriangleForms& forms, int lane, std::uint32
                     hn::Store(hn::Min(distance, best), d, squared);
                     hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), number, hn::Load(di, found)), di, found);
                 }
-                here.moveBy(stepY);
                 squared += 8 * shape.rows;
                 found += 8 * shape.rows;
             }

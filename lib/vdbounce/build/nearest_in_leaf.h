@@ -31,9 +31,9 @@ struct NearestInLeaf {
 /// Finds for each voxel which triangle of the list is nearest; of equally near ones the first in the list.
 ///
 /// Method: seen from a leaf, the distances to a triangle's plane and to the lines and ends of its edges are linear
-/// functions of the voxel's offset, so each costs an addition a voxel, eight voxels at a time. The functions are made
-/// in double at the leaf's origin, so that neither the mesh's place nor a triangle's size costs precision. Triangles
-/// without area count as their longest edge. The same bits on every processor.
+/// functions of the voxel's offset, so each costs a product and a sum a voxel, many voxels at a time. The functions are
+/// made in double at the leaf's origin, so that neither the mesh's place nor a triangle's size costs precision.
+/// Triangles without area count as their longest edge. The same bits on every processor.
 ///
 /// Cost: some 20 ns a triangle, and 6 ns for each row of eight voxels that its reach touches.
 void findNearestInLeaf(const TriangleMesh& mesh, const std::uint32_t* list, std::size_t count, const LeafPlace& place,
