@@ -164,7 +164,7 @@ TEST_CASE("walls thinner than voxels are warned of, with the voxel size that wou
     CHECK(converted(0.4).err.empty());
 }
 
-TEST_CASE("--verify holds what it says it compares with, with and without --half")
+TEST_CASE("verification holds to the tolerance it states, with and without --half")
 {
     const TemporaryFolder folder;
     const std::string mesh2ls = "mesh2ls " + bunny() + " --dim 48 --quiet -o " + (folder / "o.vdb");

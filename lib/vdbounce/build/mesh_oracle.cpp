@@ -49,8 +49,10 @@ MeshOracle::MeshOracle(const TriangleMesh& mesh, SignMethod sign, const LinearTr
 void MeshOracle::addBodies(const SolidGroups& solids)
 {
     std::vector<TriangleMesh> parts(solids.groups.size());
-    for (std::size_t t = 0; t < solids.ownTriangles; ++t) {
+    for (std::size_t t = 0; t < solids.mesh.triangles.size(); ++t) {
         if (solids.mesh.group[t] == ClosedMesh::kNone) continue;
+        const bool isCap = t >= solids.ownTriangles;
+        if (isCap && !solids.groups[solids.mesh.group[t]].capsAreWalls) continue;
         TriangleMesh& part = parts[solids.mesh.group[t]];
         const auto first = static_cast<std::uint32_t>(part.points.size());
         for (std::uint32_t p : solids.mesh.triangles[t]) part.points.push_back(solids.mesh.point(p));

@@ -124,7 +124,10 @@ private:
             // Whichever way its faces look, they are not asked.
             topology.components.front().orientable = topology.components.front().bounded = false;
         }
-        byColumns(allTriangles(mesh_), groupSolids(std::move(topology), mesh_.points, {1}), false);
+        SolidGroups solids = groupSolids(std::move(topology), mesh_.points, {1});
+        // Asked for by name, it is the winding number itself that decides, beside holes too.
+        for (SolidGroup& group : solids.groups) group.capsAreWalls = false;
+        byColumns(allTriangles(mesh_), std::move(solids), false);
     }
 
     void byColumns(const TriangleNumbers& triangles, SolidGroups solids, bool cavities)
