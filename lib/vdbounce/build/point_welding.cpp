@@ -5,30 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <unordered_map>
 
 namespace vdbounce {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-
 std::uint64_t mix(std::uint64_t hash, std::uint64_t word)
 {
     hash = (hash ^ word) * 0x9e3779b97f4a7c15ULL;
     return hash ^ (hash >> 29);
-}
-
-std::uint64_t hashOf(const Vec3d& p)
-{
-    std::uint64_t hash = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double plain = p[axis] + 0.0; // minus zero becomes zero
-        std::uint64_t bits;
-        std::memcpy(&bits, &plain, sizeof(bits));
-        hash = mix(hash, bits);
-    }
-    return hash;
 }
 
 std::uint64_t hashOfCell(std::int64_t x, std::int64_t y, std::int64_t z)
@@ -70,21 +55,6 @@ private:
 constexpr int kLevels = 40;
 
 } // namespace
-
-std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points)
-{
-    std::size_t slots = 16;
-    while (slots < 2 * points.size()) slots *= 2;
-    std::vector<std::uint32_t> table(slots, kNone);
-    std::vector<std::uint32_t> first(points.size());
-    for (std::uint32_t p = 0; p < points.size(); ++p) {
-        std::size_t slot = hashOf(points[p]) & (slots - 1);
-        while (table[slot] != kNone && points[table[slot]] != points[p]) slot = (slot + 1) & (slots - 1);
-        if (table[slot] == kNone) table[slot] = p;
-        first[p] = table[slot];
-    }
-    return first;
-}
 
 void weldClose(const std::vector<Vec3d>& points, const std::vector<double>& reach, std::vector<std::uint32_t>& pointOf)
 {

@@ -8,10 +8,6 @@
 
 namespace vdbounce {
 
-/// For each point the first one at the same position, which may be itself. Positions are compared bit by bit, but for
-/// the sign of zero. Linear in the number of points.
-std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points);
-
 /// Joins points that are closer to each other than the `reach` of both, or that a chain of such joins: all points of
 /// `pointOf` (as weldEqual() returns it) that stood for one of them stand for the first. Where `reach` is zero nothing
 /// is joined. Linear where no more than a few points are within each other's reach.

@@ -2,7 +2,7 @@
 #include "vdbounce/io/triangle_mesh.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstring>
 
 #include <tbb/parallel_sort.h>
 
@@ -36,9 +36,17 @@ std::vector<DirectedEdge> sortedEdges(const TriangleMesh& mesh)
     return edges;
 }
 
-bool lessByPosition(const Vec3d& a, const Vec3d& b)
+std::uint64_t hashOf(const Vec3d& p)
 {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double plain = p[axis] + 0.0; // minus zero becomes zero
+        std::uint64_t bits;
+        std::memcpy(&bits, &plain, sizeof(bits));
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 29;
+    }
+    return hash;
 }
 
 } // namespace
@@ -52,33 +60,35 @@ Box boundingBox(const TriangleMesh& mesh)
     return box;
 }
 
+std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points)
+{
+    constexpr std::uint32_t kNone = 0xffffffffu;
+    std::size_t slots = 16;
+    while (slots < 2 * points.size()) slots *= 2;
+    std::vector<std::uint32_t> table(slots, kNone);
+    std::vector<std::uint32_t> first(points.size());
+    for (std::uint32_t p = 0; p < points.size(); ++p) {
+        std::size_t slot = hashOf(points[p]) & (slots - 1);
+        while (table[slot] != kNone && points[table[slot]] != points[p]) slot = (slot + 1) & (slots - 1);
+        if (table[slot] == kNone) table[slot] = p;
+        first[p] = table[slot];
+    }
+    return first;
+}
+
 void weldEqualPoints(TriangleMesh& mesh)
 {
-    const std::size_t count = mesh.points.size();
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    tbb::parallel_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (lessByPosition(mesh.points[a], mesh.points[b])) return true;
-        if (lessByPosition(mesh.points[b], mesh.points[a])) return false;
-        return a < b;
-    });
-
-    // The first of each run of equal points stands for all of them.
-    std::vector<std::uint32_t> representative(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const bool startsRun = i == 0 || mesh.points[order[i]] != mesh.points[order[i - 1]];
-        representative[order[i]] = startsRun ? order[i] : representative[order[i - 1]];
-    }
-    std::vector<std::uint32_t> newIndex(count);
+    const std::vector<std::uint32_t> first = weldEqual(mesh.points);
+    std::vector<std::uint32_t> newIndex(first.size());
     std::vector<Vec3d> kept;
-    for (std::uint32_t p = 0; p < count; ++p) {
-        if (representative[p] == p) {
+    for (std::uint32_t p = 0; p < first.size(); ++p) {
+        if (first[p] == p) {
             newIndex[p] = static_cast<std::uint32_t>(kept.size());
             kept.push_back(mesh.points[p]);
         }
     }
     for (auto& triangle : mesh.triangles) {
-        for (std::uint32_t& p : triangle) p = newIndex[representative[p]];
+        for (std::uint32_t& p : triangle) p = newIndex[first[p]];
     }
     mesh.points = std::move(kept);
 }

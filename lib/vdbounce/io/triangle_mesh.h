@@ -26,6 +26,10 @@ struct TriangleMesh {
 /// The box around the points that triangles use; empty for a mesh without triangles.
 Box boundingBox(const TriangleMesh& mesh);
 
+/// For each point the first one at the same position, which may be itself. Positions are compared bit by bit, but for
+/// the sign of zero. Linear in the number of points.
+std::vector<std::uint32_t> weldEqual(const std::vector<Vec3d>& points);
+
 /// Replaces points at bitwise equal positions by one, keeping the order of first appearance. Formats that store
 /// each triangle's corners apart (stl) need it before edges can be told to be shared.
 void weldEqualPoints(TriangleMesh& mesh);
