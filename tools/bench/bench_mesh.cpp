@@ -43,7 +43,8 @@ public:
         if (const auto bytes = peak.bytes()) peakBytes_.push_back(*bytes);
     }
 
-    MeshFigures figures(const TriangleMesh& mesh) const
+    // `sheets`: the thickness of those that open parts became, world; none did where it is zero.
+    MeshFigures figures(const TriangleMesh& mesh, double sheets) const
     {
         MeshFigures figures;
         figures.cpuSeconds = median(cpuSeconds_);
@@ -54,7 +55,9 @@ public:
         figures.activeVoxels = summary.activeVoxels;
         VerifyOptions verify;
         verify.samples = kCheckedVoxels;
-        verify.sign = SignMethod::Winding; // only distances are looked at
+        // Only distances are looked at, but those to sheets are to their surfaces.
+        verify.sign = sheets > 0.0 ? SignMethod::Auto : SignMethod::Winding;
+        verify.thickness = sheets;
         figures.largestErrorVx = verifyLevelSet(grid_, mesh, verify).maxErrorVx;
         return figures;
     }
@@ -106,9 +109,9 @@ MeshBenchResult benchMesh(const std::string& name, const TriangleMesh& mesh, con
     result.name = nameOf(result);
     result.triangles = mesh.triangles.size();
     result.meshBytes = bytesOf(mesh);
-    result.ours = ours.figures(mesh);
+    result.ours = ours.figures(mesh, make.thicknessVx * make.voxelSize);
     throwIfStopped(progress);
-    result.theirs = theirs.figures(mesh);
+    result.theirs = theirs.figures(mesh, 0.0);
     return result;
 }
 
