@@ -48,7 +48,14 @@ double areaOf(const TriangleMesh& mesh)
     return area;
 }
 
-std::string gigabytes(double bytes) { return numberText(std::round(bytes * 1e-8) / 10.0) + " GB"; }
+// Three digits tell enough: "1.2 GB", "45 MB", "1 KB".
+std::string sizeText(double bytes)
+{
+    const char* units[] = {"KB", "MB", "GB", "TB"};
+    std::size_t unit = 0;
+    for (bytes /= 1e3; bytes >= 1e3 && unit < 3; bytes /= 1e3) ++unit;
+    return numberText(bytes < 10.0 ? std::round(bytes * 10.0) / 10.0 : std::round(bytes)) + " " + units[unit];
+}
 
 // Leaves within `band` of a surface of that area, no more than there are in the box around it.
 double leavesWithin(double area, const Box& box, double voxel, double band)
@@ -114,7 +121,7 @@ void requireConvertible(const TriangleMesh& mesh, const LinearTransform& transfo
     const double bytes = estimateConversion(mesh, transform, exterior, interior, beside).bytes;
     if (!(bytes > double(maxMemory))) return;
     throw UsageError("voxel size " + numberText(voxel) + ", band " + numberText(band),
-                     "would take about " + gigabytes(bytes) + ", and " + gigabytes(double(maxMemory)) + " are allowed",
+                     "would take about " + sizeText(bytes) + ", and " + sizeText(double(maxMemory)) + " are allowed",
                      "use larger voxels, a thinner band, or --max-memory");
 }
 

@@ -141,7 +141,6 @@ private:
         warnAboutDoubt(signs_, cavities, result_.warnings);
         addSplitLeaves();
         result_.doubtfulVoxels = signs_.holes.voxels + signs_.overlaps.voxels;
-        result_.counted = cavities;
     }
 
     void byRegions(const TriangleNumbers& triangles, InsideTest test, bool closed)

@@ -36,8 +36,17 @@ std::string placeText(const Vec3d& p)
     return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ")";
 }
 
-void warnAboutTriangles(const MeshTopology& topology, std::vector<std::string>& warnings)
+std::string openText(const Totals& totals, SignMethod method)
 {
+    return "the mesh is open (" + counted(totals.open, "edge", "edges") +
+           " with an odd number of triangles): the sign across its holes is the " + signMethodName(method) +
+           " method's guess, and phi jumps there; close the mesh, or use --sign unsigned for a sheet";
+}
+
+void warnAboutTriangles(const MeshTopology& topology, const Totals& totals, std::vector<std::string>& warnings)
+{
+    if (totals.nonManifold > 0)
+        warnings.push_back(counted(totals.nonManifold, "edge has", "edges have") + " three triangles or more");
     if (topology.degenerate > 0) {
         warnings.push_back(counted(topology.degenerate, "triangle has", "triangles have") +
                            " a point twice: degenerate, and no part of what tells the sign");
@@ -62,13 +71,7 @@ void warnAboutMesh(const MeshTopology& topology, const ComponentSigns& signs, do
     const Totals totals = add(topology);
     std::size_t sheets = 0;
     for (const SignMethod method : signs.method) sheets += method == SignMethod::Unsigned ? 1 : 0;
-    if (totals.open > 0) {
-        warnings.push_back("the mesh is open (" + counted(totals.open, "edge", "edges") +
-                           " with an odd number of triangles): the sign across its holes is the " +
-                           signMethodName(signs.overall) +
-                           " method's guess, and phi jumps there; close the mesh, or use "
-                           "--sign unsigned for a sheet");
-    }
+    if (totals.open > 0) warnings.push_back(openText(totals, signs.overall));
     if (sheets > 0) {
         warnings.push_back(counted(sheets, "component encloses", "components enclose") +
                            " nothing and became a sheet " + numberText(thicknessVx) +
@@ -82,29 +85,21 @@ void warnAboutMesh(const MeshTopology& topology, const ComponentSigns& signs, do
         warnings.push_back(counted(totals.notOrientable, "component has", "components have") +
                            " faces that cannot all face the same way");
     }
-    if (totals.nonManifold > 0)
-        warnings.push_back(counted(totals.nonManifold, "edge has", "edges have") + " three triangles or more");
-    warnAboutTriangles(topology, warnings);
+    warnAboutTriangles(topology, totals, warnings);
 }
 
 void warnAboutMesh(const MeshTopology& topology, SignMethod method, std::vector<std::string>& warnings)
 {
     const Totals totals = add(topology);
     if (totals.open > 0) {
-        warnings.push_back("the mesh is open (" + counted(totals.open, "edge", "edges") +
-                           " with an odd number of triangles): the sign across its holes is the " +
-                           signMethodName(method) +
-                           " method's guess, and phi jumps there; close the mesh, or use --sign "
-                           "unsigned for a sheet");
+        warnings.push_back(openText(totals, method));
     } else if (!topology.rim.empty()) {
         const std::string found =
             counted(topology.rim.size(), "edge joins", "edges join") + " triangles that face opposite ways";
         warnings.push_back(found + (method == SignMethod::Parity ? ": inside is told by parity, which does not ask them"
                                                                  : "; use --sign auto, which turns them"));
     }
-    if (totals.nonManifold > 0)
-        warnings.push_back(counted(totals.nonManifold, "edge has", "edges have") + " three triangles or more");
-    warnAboutTriangles(topology, warnings);
+    warnAboutTriangles(topology, totals, warnings);
 }
 
 void warnAboutCavities(std::size_t sameWay, std::vector<std::string>& warnings)

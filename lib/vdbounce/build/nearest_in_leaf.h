@@ -35,7 +35,7 @@ struct NearestInLeaf {
 /// made in double at the leaf's origin, so that neither the mesh's place nor a triangle's size costs precision.
 /// Triangles without area count as their longest edge. The same bits on every processor.
 ///
-/// Cost: some 20 ns a triangle, and 6 ns for each row of eight voxels that its reach touches.
+/// Cost: proportional to the triangles, and to the rows of eight voxels that their reach touches.
 void findNearestInLeaf(const TriangleMesh& mesh, const std::uint32_t* list, std::size_t count, const LeafPlace& place,
                        NearestInLeaf& nearest);
 

@@ -20,7 +20,7 @@ struct EightBoxes {
 };
 
 /// Tells for each box of a list, by its numbers, which of eight others it comes as near to as `reach`: bit i of
-/// `reached` for box i. Squared distances are compared, in floats, the same on every processor. Some 4 ns a box.
+/// `reached` for box i. Squared distances are compared, in floats, the same on every processor.
 void findReached(const FloatBox* boxes, const std::uint32_t* list, std::size_t count, const EightBoxes& eight,
                  float reachSquared, std::uint8_t* reached);
 
