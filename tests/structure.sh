@@ -11,7 +11,7 @@ complain() {
 }
 
 # A floor may use itself and those before it.
-floors=(base particles io field build render contact scene)
+floors=(base particles io field implicit build render contact scene)
 for i in "${!floors[@]}"; do
     above=$(IFS='|'; echo "${floors[*]:$((i + 1))}")
     [ -z "$above" ] && continue

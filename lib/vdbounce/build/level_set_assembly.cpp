@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/level_set_assembly.h"
 
-#include "vdbounce/base/parallel.h"
-#include "vdbounce/field/openvdb_transform.h"
-#include "vdbounce/io/openvdb_grid.h"
+#include "vdbounce/field/grid_assembly.h"
 #include "vdbounce/io/vdb_archive.h"
 
 #include <openvdb/tools/Prune.h>
@@ -14,33 +12,10 @@
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kLeavesPerTask = 64;
-
 openvdb::Coord originOf(const BandLeaf& leaf)
 {
     const Vec3i origin = leaf.voxel(0);
     return openvdb::Coord(origin.x(), origin.y(), origin.z());
-}
-
-template <class GridType>
-typename GridType::Ptr makeGrid(const typename GridType::ValueType& background, const LinearTransform& transform,
-                                const std::string& name)
-{
-    auto grid = GridType::create(background);
-    grid->setName(name);
-    grid->setTransform(toOpenVdb(transform));
-    return grid;
-}
-
-// A leaf for each of the leaves that `fill` says has something to hold, added in order.
-template <class GridType, class Fill> void addLeaves(GridType& grid, std::size_t count, const Fill& fill)
-{
-    using Leaf = typename GridType::TreeType::LeafNodeType;
-    std::vector<std::unique_ptr<Leaf>> made(count);
-    forEachIndex(count, kLeavesPerTask, [&](std::size_t i) { made[i] = fill(i); });
-    for (auto& leaf : made) {
-        if (leaf != nullptr) grid.tree().addLeaf(leaf.release());
-    }
 }
 
 std::unique_ptr<openvdb::FloatTree::LeafNodeType> levelSetLeaf(const BandLeaf& leaf, const BandWidths& band)

@@ -78,6 +78,12 @@ const VdbGridHeader* choose(const std::vector<VdbGridHeader>& headers, const std
     return candidate;
 }
 
+void requireLinear(const openvdb::FloatGrid& grid, const std::string& place)
+{
+    if (grid.transform().isLinear()) return;
+    throw InputError(place, "has a transform that is not linear (" + grid.transform().mapType() + ")", "resample it");
+}
+
 void requireLevelSet(const openvdb::FloatGrid& grid, const std::string& place)
 {
     const std::string remedy = "convert it to a level set first";
@@ -85,10 +91,7 @@ void requireLevelSet(const openvdb::FloatGrid& grid, const std::string& place)
         throw InputError(place, "is a fog volume, not a level set", remedy);
     if (grid.getGridClass() == openvdb::GRID_STAGGERED)
         throw InputError(place, "is staggered, not a level set", remedy);
-    if (!grid.transform().isLinear()) {
-        throw InputError(place, "has a transform that is not linear (" + grid.transform().mapType() + ")",
-                         "resample it");
-    }
+    requireLinear(grid, place);
     if (!(grid.background() > 0.0f) || !std::isfinite(grid.background())) {
         throw InputError(place,
                          "has background " + numberText(grid.background()) + ", a level set's is positive and finite",
@@ -107,6 +110,29 @@ void refuseUnsigned(const openvdb::FloatGrid& grid, const std::string& place)
                      "make a signed one, or set its grid class to 'level set'");
 }
 
+// Calls use(grid, place) with the file's grid of that name, or without one the most likely; `what` is what the caller
+// looks for.
+template <class Use>
+void withFloatGrid(const std::string& path, const std::string& gridName, const std::string& what, const Use& use)
+{
+    withVdbFile(path, [&](openvdb::io::File& file) {
+        const std::vector<VdbGridHeader> headers = readVdbHeaders(file);
+        const VdbGridHeader* chosen = choose(headers, gridName);
+        if (chosen == nullptr) {
+            throw InputError(path,
+                             gridName.empty() ? "holds no " + what + " but " + listing(headers)
+                                              : "holds no grid '" + gridName + "' but " + listing(headers),
+                             "name a file, or a grid in it, with signed distances");
+        }
+        const std::string place = path + ": grid '" + chosen->uniqueName + "'";
+        if (!holdsDistances(*chosen->grid)) {
+            throw InputError(place, "holds " + chosen->grid->valueType() + ", not distances",
+                             "name a grid of float or double");
+        }
+        use(asFloatGrid(file.readGrid(chosen->uniqueName)), place);
+    });
+}
+
 } // namespace
 
 LevelSetGrid toLevelSetGrid(openvdb::FloatGrid::ConstPtr grid, const std::string& place)
@@ -119,24 +145,24 @@ LevelSetGrid toLevelSetGrid(openvdb::FloatGrid::ConstPtr grid, const std::string
 LevelSetGrid readLevelSet(const std::string& path, const std::string& gridName)
 {
     LevelSetGrid result;
-    withVdbFile(path, [&](openvdb::io::File& file) {
-        const std::vector<VdbGridHeader> headers = readVdbHeaders(file);
-        const VdbGridHeader* chosen = choose(headers, gridName);
-        if (chosen == nullptr) {
-            throw InputError(path,
-                             gridName.empty() ? "holds no level set but " + listing(headers)
-                                              : "holds no grid '" + gridName + "' but " + listing(headers),
-                             "name a file, or a grid in it, with signed distances");
-        }
-        const std::string place = path + ": grid '" + chosen->uniqueName + "'";
-        if (!holdsDistances(*chosen->grid)) {
-            throw InputError(place, "holds " + chosen->grid->valueType() + ", not distances",
-                             "name a grid of float or double");
-        }
-        result = toLevelSetGrid(asFloatGrid(file.readGrid(chosen->uniqueName)), place);
+    withFloatGrid(path, gridName, "level set",
+                  [&](auto grid, const std::string& place) { result = toLevelSetGrid(std::move(grid), place); });
+    return result;
+}
+
+ScalarGrid readScalarGrid(const std::string& path, const std::string& gridName)
+{
+    ScalarGrid result;
+    withFloatGrid(path, gridName, "grid of numbers", [&](auto grid, const std::string& place) {
+        requireLinear(*grid, place);
+        result = toScalarGrid(std::move(grid));
     });
     return result;
 }
+
+ScalarGrid toScalarGrid(const LevelSetGrid& grid) { return toScalarGrid(grid.holder().grid); }
+
+bool isFogVolume(const ScalarGrid& grid) { return toOpenVdb(grid).getGridClass() == openvdb::GRID_FOG_VOLUME; }
 
 void writeLevelSet(const LevelSetGrid& grid, const std::string& path, const GridWriteOptions& options)
 {
@@ -159,33 +185,6 @@ std::vector<GridEntry> listGrids(const std::string& path)
         for (const VdbGridHeader& header : readVdbHeaders(file)) entries.push_back(describe(header));
     });
     return entries;
-}
-
-LevelSetSummary summarize(const LevelSetGrid& handle)
-{
-    const openvdb::FloatGrid& grid = toOpenVdb(handle);
-    LevelSetSummary summary;
-    const openvdb::Vec3d voxel = grid.voxelSize();
-    const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
-    summary.name = grid.getName();
-    summary.valueType = storedType(grid);
-    summary.voxelSize = Vec3d(voxel.x(), voxel.y(), voxel.z());
-    summary.background = grid.background();
-    summary.halfWidthVx = summary.background / summary.voxelSize.minCoeff();
-    summary.activeVoxels = grid.activeVoxelCount();
-    summary.leaves = grid.tree().leafCount();
-    summary.memoryBytes = grid.memUsage();
-    summary.indexMin = Vec3i(box.min().x(), box.min().y(), box.min().z());
-    summary.indexMax = Vec3i(box.max().x(), box.max().y(), box.max().z());
-    if (box.empty()) return summary;
-    for (int corner = 0; corner < 8; ++corner) {
-        const openvdb::Vec3d index((corner & 1) != 0 ? box.max().x() : box.min().x(),
-                                   (corner & 2) != 0 ? box.max().y() : box.min().y(),
-                                   (corner & 4) != 0 ? box.max().z() : box.min().z());
-        const openvdb::Vec3d world = grid.indexToWorld(index);
-        summary.worldBox.add(Vec3d(world.x(), world.y(), world.z()));
-    }
-    return summary;
 }
 
 } // namespace vdbounce

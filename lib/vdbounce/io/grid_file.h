@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vdbounce/io/level_set_grid.h"
+#include "vdbounce/io/scalar_grid.h"
 #include "vdbounce/io/sidecar_grid.h"
 
 #include <string>

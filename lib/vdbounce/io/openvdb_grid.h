@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vdbounce/io/level_set_grid.h"
+#include "vdbounce/io/scalar_grid.h"
 #include "vdbounce/io/sidecar_grid.h"
 
 #include <openvdb/openvdb.h>
@@ -15,6 +16,10 @@ struct LevelSetGrid::Holder {
     openvdb::FloatGrid::ConstPtr grid;
 };
 
+struct ScalarGrid::Holder {
+    openvdb::FloatGrid::ConstPtr grid;
+};
+
 struct SidecarGrid::Holder {
     openvdb::GridBase::ConstPtr grid;
 };
@@ -24,6 +29,14 @@ struct SidecarGrid::Holder {
 LevelSetGrid toLevelSetGrid(openvdb::FloatGrid::ConstPtr grid, const std::string& place);
 
 inline const openvdb::FloatGrid& toOpenVdb(const LevelSetGrid& grid) { return *grid.holder().grid; }
+
+/// Shares `grid`; it must not be changed afterwards.
+inline ScalarGrid toScalarGrid(openvdb::FloatGrid::ConstPtr grid)
+{
+    return ScalarGrid(std::make_shared<ScalarGrid::Holder>(ScalarGrid::Holder{std::move(grid)}));
+}
+
+inline const openvdb::FloatGrid& toOpenVdb(const ScalarGrid& grid) { return *grid.holder().grid; }
 
 /// Shares `grid`; it must not be changed afterwards.
 inline SidecarGrid toSidecarGrid(openvdb::GridBase::ConstPtr grid)
