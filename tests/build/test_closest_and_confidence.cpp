@@ -2,8 +2,8 @@
 #include "support/meshes.h"
 #include "support/random.h"
 
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/mesh_to_level_set.h"
-#include "vdbounce/build/triangle_distance.h"
 #include "vdbounce/io/openvdb_grid.h"
 
 using namespace vdbounce;

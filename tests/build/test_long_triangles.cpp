@@ -2,9 +2,9 @@
 #include "support/meshes.h"
 #include "support/random.h"
 
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/mesh_to_level_set.h"
 #include "vdbounce/build/nearest_in_leaf.h"
-#include "vdbounce/build/triangle_distance.h"
 #include "vdbounce/io/openvdb_grid.h"
 
 using namespace vdbounce;

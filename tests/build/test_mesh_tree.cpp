@@ -2,8 +2,8 @@
 #include "support/meshes.h"
 #include "support/random.h"
 
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/mesh_tree.h"
-#include "vdbounce/build/triangle_distance.h"
 
 #include <Eigen/Geometry>
 

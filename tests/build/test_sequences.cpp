@@ -3,9 +3,9 @@
 #include "support/run_tool.h"
 #include "support/temporary_folder.h"
 
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/mesh_to_level_set.h"
 #include "vdbounce/build/topology_memory.h"
-#include "vdbounce/build/triangle_distance.h"
 #include "vdbounce/build/velocity_grid.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/mesh_file.h"

@@ -2,9 +2,9 @@
 #include "support/meshes.h"
 #include "support/random.h"
 
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/band_leaves.h"
 #include "vdbounce/build/mesh_to_level_set.h"
-#include "vdbounce/build/triangle_distance.h"
 #include "vdbounce/field/vector_lookup.h"
 #include "vdbounce/io/openvdb_grid.h"
 

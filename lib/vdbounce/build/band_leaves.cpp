@@ -2,9 +2,9 @@
 #include "vdbounce/build/band_leaves.h"
 
 #include "vdbounce/base/box.h"
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/build/nearest_in_leaf.h"
 #include "vdbounce/build/reach_test.h"
-#include "vdbounce/build/triangle_distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/mesh_tree.h"
 
-#include "vdbounce/build/triangle_distance.h"
+#include "vdbounce/base/triangle_distance.h"
 
 #include <Eigen/Geometry>
 

@@ -3,7 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/build/triangle_distance.h"
+#include "vdbounce/base/triangle_distance.h"
 #include "vdbounce/io/openvdb_grid.h"
 #include "vdbounce/io/vdb_archive.h"
 

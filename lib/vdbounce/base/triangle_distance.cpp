@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vdbounce/build/triangle_distance.h"
+#include "vdbounce/base/triangle_distance.h"
 
 #include <Eigen/Geometry>
 
