@@ -10,12 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <unistd.h>
-
 namespace vdbounce {
 namespace {
-
-constexpr double kMemoryShare = 0.75;
 
 // Measured on the bunny, the armadillo, the dragon and balls of 400 to 2 million triangles, at 0.05 to 30 voxels a
 // triangle's side: a leaf while its distances become a grid's; before that, beside what crosses its columns; the
@@ -48,15 +44,6 @@ double areaOf(const TriangleMesh& mesh)
     return area;
 }
 
-// Three digits tell enough: "1.2 GB", "45 MB", "1 KB".
-std::string sizeText(double bytes)
-{
-    const char* units[] = {"KB", "MB", "GB", "TB"};
-    std::size_t unit = 0;
-    for (bytes /= 1e3; bytes >= 1e3 && unit < 3; bytes /= 1e3) ++unit;
-    return numberText(bytes < 10.0 ? std::round(bytes * 10.0) / 10.0 : std::round(bytes)) + " " + units[unit];
-}
-
 // Leaves within `band` of a surface of that area, no more than there are in the box around it.
 double leavesWithin(double area, const Box& box, double voxel, double band)
 {
@@ -68,11 +55,6 @@ double leavesWithin(double area, const Box& box, double voxel, double band)
 }
 
 } // namespace
-
-std::uint64_t defaultMaxMemory()
-{
-    return std::uint64_t(kMemoryShare * double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGESIZE)));
-}
 
 ConversionEstimate estimateConversion(const TriangleMesh& mesh, const LinearTransform& transform, double exterior,
                                       double interior, double beside)

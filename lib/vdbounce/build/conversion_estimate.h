@@ -20,9 +20,6 @@ struct ConversionEstimate {
 ConversionEstimate estimateConversion(const TriangleMesh& mesh, const LinearTransform& transform, double exterior,
                                       double interior, double beside = 0.0);
 
-/// Three quarters of the machine's memory, bytes.
-std::uint64_t defaultMaxMemory();
-
 /// Throws UsageError when the estimate is beyond `maxMemory` bytes, or the mesh's voxels are too many to be numbered;
 /// names what it would take and what there is.
 void requireConvertible(const TriangleMesh& mesh, const LinearTransform& transform, double exterior, double interior,

@@ -2,6 +2,7 @@
 #include "vdbounce/build/mesh_to_level_set.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/base/memory_limit.h"
 #include "vdbounce/build/conversion_estimate.h"
 #include "vdbounce/build/inside.h"
 #include "vdbounce/build/leaf_union.h"

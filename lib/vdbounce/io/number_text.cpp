@@ -2,6 +2,7 @@
 #include "vdbounce/io/number_text.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace vdbounce {
 namespace {
@@ -53,6 +54,14 @@ std::string numberText(double value)
     std::string text;
     appendNumber(text, value);
     return text;
+}
+
+std::string sizeText(double bytes)
+{
+    const char* units[] = {"KB", "MB", "GB", "TB"};
+    std::size_t unit = 0;
+    for (bytes /= 1e3; bytes >= 1e3 && unit < 3; bytes /= 1e3) ++unit;
+    return numberText(bytes < 10.0 ? std::round(bytes * 10.0) / 10.0 : std::round(bytes)) + " " + units[unit];
 }
 
 } // namespace vdbounce

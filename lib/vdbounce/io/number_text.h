@@ -27,4 +27,7 @@ void appendNumber(std::string& out, std::int64_t value);
 /// The shortest text that reads back to `value`.
 std::string numberText(double value);
 
+/// An amount of memory, to two or three digits: "1.2 GB", "45 MB", "1 KB". Powers of 1000.
+std::string sizeText(double bytes);
+
 } // namespace vdbounce
