@@ -76,7 +76,7 @@ every = 2
     CHECK(scene.colliders[0].file == folder / "meshes/bunny.vdb");
     CHECK(scene.colliders[0].friction == 2.0);
     CHECK(scene.colliders[1].name == "collider1");
-    CHECK(scene.colliders[1].plane->normal == Vec3d(0, 2, 0));
+    CHECK(std::get<PlaneShape>(*scene.colliders[1].formula).normal == Vec3d(0, 2, 0));
     CHECK(scene.outputFile == folder / "out.####.vdb");
     CHECK(scene.every == 2);
 }

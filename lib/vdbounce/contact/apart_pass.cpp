@@ -114,7 +114,7 @@ private:
         const StepOptions& options = pass_.options_.step;
         if (!(candidate.clearance > 0.0) || !std::isfinite(candidate.way)) return false;
         if (sweepIsDue(options.sweep, candidate.way, pass_.clearance_[i] + candidate.clearance,
-                       pass_.colliders_->smallestVoxel()))
+                       pass_.colliders_->wallLength()))
             return false;
         ++tally_.near;
         pass_.particles_.position[i] = candidate.position;

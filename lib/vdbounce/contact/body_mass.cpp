@@ -32,13 +32,25 @@ struct Moments {
     }
 };
 
+// A box around a shape that has an inside and an end; empty where it has none.
+Box closedBox(const Shape& shape)
+{
+    if (deforms(shape)) return {};
+    if (const auto* implicit = std::get_if<std::shared_ptr<const ImplicitField>>(&shape)) {
+        const Box box = (*implicit)->box();
+        return box.size().allFinite() ? box : Box{};
+    }
+    const auto* field = std::get_if<std::shared_ptr<const DistanceField>>(&shape);
+    if (field == nullptr || (*field)->empty() || (*field)->clipped()) return {};
+    return (*field)->worldBox();
+}
+
 } // namespace
 
 std::optional<BodyMass> evenDensity(const Shape& shape, double mass)
 {
-    const auto* field = std::get_if<std::shared_ptr<const DistanceField>>(&shape);
-    if (field == nullptr || (*field)->empty() || (*field)->clipped()) return std::nullopt;
-    const Box& box = (*field)->worldBox();
+    const Box box = closedBox(shape);
+    if (box.empty()) return std::nullopt;
     const double cell = box.size().maxCoeff() / kLatticePoints;
     const Vec3i counts = (box.size() / cell).array().ceil().max(1.0).cast<int>();
     // Moments about the box's centre, so that a place far from the origin costs no precision.
@@ -49,7 +61,7 @@ std::optional<BodyMass> evenDensity(const Shape& shape, double mass)
             for (int y = 0; y < counts.y(); ++y) {
                 for (int z = 0; z < counts.z(); ++z) {
                     const Vec3d at = box.min + cell * Vec3d(x + 0.5, y + 0.5, z + 0.5);
-                    const double share = std::clamp(0.5 - (*field)->phi(at) / cell, 0.0, 1.0);
+                    const double share = std::clamp(0.5 - phiOf(shape, at, 0.0) / cell, 0.0, 1.0);
                     if (share > 0.0) part.add(at - origin, share);
                 }
             }

@@ -17,7 +17,7 @@ constexpr double kSinglePrecision = 6e-6;
 bool ClearanceBatch::answers(const ColliderSet& colliders)
 {
     for (std::size_t i = 0; i < colliders.size(); ++i) {
-        if (std::holds_alternative<DeformingShape>(colliders[i].shape)) return false;
+        if (deforms(colliders[i].shape)) return false;
     }
     return true;
 }
@@ -27,17 +27,23 @@ void ClearanceBatch::compute(std::vector<Candidate>& candidates)
     for (Candidate& candidate : candidates)
         candidate.clearance = candidate.asked ? std::numeric_limits<double>::infinity() : 0.0;
     for (std::size_t c = 0; c < colliders_.size(); ++c) {
-        if (const auto* plane = std::get_if<PlaneField>(&colliders_[c].shape)) {
-            for (Candidate& candidate : candidates) {
-                const Placement& placement = candidate.colliders->placement(c);
-                const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
-                candidate.clearance =
-                    std::min(candidate.clearance, std::max(0.0, plane->phi(local) - candidate.radius));
-            }
-        } else {
-            const auto& field = std::get<std::shared_ptr<const DistanceField>>(colliders_[c].shape);
-            if (!field->empty()) lookUp(c, *field, candidates);
+        const auto* field = std::get_if<std::shared_ptr<const DistanceField>>(&colliders_[c].shape);
+        if (field == nullptr) {
+            askOneByOne(c, candidates);
+        } else if (!(*field)->empty()) {
+            lookUp(c, **field, candidates);
         }
+    }
+}
+
+void ClearanceBatch::askOneByOne(std::size_t collider, std::vector<Candidate>& candidates)
+{
+    for (Candidate& candidate : candidates) {
+        if (!(candidate.clearance > 0.0)) continue;
+        const Placement& placement = candidate.colliders->placement(collider);
+        const Vec3d local = placement.moves ? placement.end.toLocal(candidate.position) : candidate.position;
+        const Nearness near = nearnessOf(colliders_[collider].shape, local, candidate.radius, placement.endTime);
+        candidate.clearance = std::min(candidate.clearance, near.clearance);
     }
 }
 

@@ -23,7 +23,7 @@ struct Candidate {
 /// whose cache misses overlap. In single precision, so a little less.
 class ClearanceBatch {
 public:
-    /// Whether all colliders are planes or level sets that do not deform; others are not answered.
+    /// Whether no collider changes its form; those that do are not answered.
     static bool answers(const ColliderSet& colliders);
 
     explicit ClearanceBatch(const ColliderSet& colliders) : colliders_(colliders) {}
@@ -31,6 +31,7 @@ public:
     void compute(std::vector<Candidate>& candidates);
 
 private:
+    void askOneByOne(std::size_t collider, std::vector<Candidate>& candidates); // for shapes by formula
     void lookUp(std::size_t collider, const DistanceField& field, std::vector<Candidate>& candidates);
 
     const ColliderSet& colliders_;

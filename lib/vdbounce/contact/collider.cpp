@@ -7,13 +7,14 @@
 namespace vdbounce {
 
 ColliderSet::ColliderSet(std::vector<Collider> colliders)
-    : colliders_(std::move(colliders)), smallestVoxel_(std::numeric_limits<double>::infinity())
+    : colliders_(std::move(colliders)), smallestVoxel_(std::numeric_limits<double>::infinity()),
+      wallLength_(std::numeric_limits<double>::infinity())
 {
     for (const Collider& collider : colliders_) {
         balls_.push_back(ballAround(collider.shape));
         smallestVoxel_ = std::min(smallestVoxel_, voxelSizeOf(collider.shape));
-        const bool deforms = std::holds_alternative<DeformingShape>(collider.shape);
-        still_ = still_ && collider.motion.still() && !collider.body && !deforms;
+        wallLength_ = std::min(wallLength_, wallLengthOf(collider.shape));
+        still_ = still_ && collider.motion.still() && !collider.body && !deforms(collider.shape);
         anyFree_ = anyFree_ || collider.body.has_value();
     }
 }

@@ -45,14 +45,17 @@ public:
     /// Some collider is moved by particles.
     bool anyFree() const { return anyFree_; }
 
-    /// The smallest voxel side of all level sets, world units: no wall thinner than twice this can be told from
-    /// nothing. Infinite where there are none.
+    /// The smallest voxel side of all level sets, world units. Infinite where there are none.
     double smallestVoxel() const { return smallestVoxel_; }
+
+    /// The smallest length on which walls can be told apart, see wallLengthOf(). Infinite for planes alone.
+    double wallLength() const { return wallLength_; }
 
 private:
     std::vector<Collider> colliders_;
     std::vector<BoundingBall> balls_;
     double smallestVoxel_;
+    double wallLength_;
     bool still_ = true;
     bool anyFree_ = false;
 };

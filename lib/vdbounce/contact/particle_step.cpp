@@ -15,19 +15,20 @@ namespace {
 // What contact moves out beyond the surface, as a share of the depth: closes in from inside geometrically otherwise.
 constexpr double kPushMargin = 1e-3;
 
-// The least that a push moves a particle, in voxels: a thousandth of what trilinear interpolation can resolve.
-constexpr double kSmallestPushVx = 1e-6;
+// The least that a push moves a particle, as a share of the length on which walls are told apart: a thousandth of what
+// trilinear interpolation can resolve.
+constexpr double kSmallestPush = 1e-6;
 
-// Steps shorter than this, in voxels, pass no wall that a grid can hold: the thinnest is two voxels thick, and half of
-// one where the grid lies badly.
-constexpr double kSweepFromVx = 0.5;
+// Steps shorter than this share of the length on which walls are told apart pass none: of a grid's the thinnest is two
+// voxels thick, and half of one where the grid lies badly.
+constexpr double kSweepFrom = 0.5;
 
 } // namespace
 
-bool sweepIsDue(Sweep sweep, double way, double clear, double voxel)
+bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength)
 {
     if (sweep == Sweep::Never) return false;
-    if (sweep == Sweep::Auto && way <= kSweepFromVx * voxel) return false;
+    if (sweep == Sweep::Auto && way <= kSweepFrom * wallLength) return false;
     return way > clear;
 }
 
@@ -84,18 +85,19 @@ Touch ParticleStep::look()
 bool ParticleStep::mayHaveTouchedOnTheWay() const
 {
     const double way = (candidate - start).norm() + colliders.reach();
-    return sweepIsDue(options.sweep, way, particle.clearance + probe.clearance, colliders.smallestVoxel());
+    return sweepIsDue(options.sweep, way, particle.clearance + probe.clearance, colliders.wallLength());
 }
 
 double ParticleStep::shortLength() const
 {
-    const double voxel = colliders.smallestVoxel();
-    return voxel < std::numeric_limits<double>::infinity() ? voxel : 0.25 * (candidate - start).norm();
+    const double length = colliders.wallLength();
+    const bool known = length > 0.0 && length < std::numeric_limits<double>::infinity();
+    return known ? length : 0.25 * (candidate - start).norm();
 }
 
 double ParticleStep::pushOut(double depth) const
 {
-    return std::max((1.0 + kPushMargin) * depth, kSmallestPushVx * shortLength());
+    return std::max((1.0 + kPushMargin) * depth, kSmallestPush * shortLength());
 }
 
 Vec3d ParticleStep::contactPoint(const Touch& touch) const

@@ -24,8 +24,8 @@ struct Touch {
 };
 
 /// Whether a way, with what colliders move meanwhile, is to be searched, when the clearances at both of its ends add up
-/// to `clear`. `voxel` is the smallest of all.
-bool sweepIsDue(Sweep sweep, double way, double clear, double voxel);
+/// to `clear`. `wallLength` is that of the colliders.
+bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength);
 
 class ParticleStep {
 public:
@@ -88,7 +88,7 @@ public:
     /// Stops what began outside and could not be brought out again, and counts it.
     void hold(std::size_t collider);
 
-    /// The length on which walls are told apart; planes alone have none, and any will do.
+    /// The length on which walls are told apart; planes and points of cones have none, and any will do.
     double shortLength() const;
 
     /// How far to move out what is `depth` inside.

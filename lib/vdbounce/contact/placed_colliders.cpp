@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/placed_colliders.h"
 
+#include "vdbounce/contact/motion_reach.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,18 +11,6 @@ namespace vdbounce {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// The centre of motion goes straight; every point of the ball turns around it by no more than its distance allows.
-double reachOf(const Placement& placement, const BoundingBall& ball, double dt)
-{
-    const Vec3d centre = placement.end.toLocal(placement.velocity.centre);
-    const double straight = (placement.end.toWorld(centre) - placement.begin.toWorld(centre)).norm();
-    // |R1 - R0| / sqrt(2) in the Frobenius norm is the chord of the turn, and its arc at most pi/2 times that; a
-    // turn of more than half a circle shows in the velocity only.
-    const double chord = (placement.end.rotation - placement.begin.rotation).norm() / std::sqrt(2.0);
-    const double angle = std::max(0.5 * M_PI * chord, dt * placement.velocity.angular.norm());
-    return angle > 0.0 ? straight + angle * ((ball.centre - centre).norm() + ball.radius) : straight;
-}
 
 } // namespace
 
@@ -48,14 +38,15 @@ PlacedColliders::PlacedColliders(const ColliderSet& colliders, double begin, dou
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         const Collider& collider = colliders[i];
         Placement& placement = placements_[i];
-        placement.beginShare = shareAt(collider.shape, begin);
-        placement.endShare = shareAt(collider.shape, begin + dt);
+        placement.beginTime = begin;
+        placement.endTime = begin + dt;
         if (!collider.motion.still()) {
             place(i, collider.motion.poseAt(begin), collider.motion.poseAt(begin + dt),
                   collider.motion.velocityAt(begin + dt));
         }
-        // Its form changes, though nothing needs to be added to the clearance, which holds for both of its level sets.
-        if (std::holds_alternative<DeformingShape>(collider.shape)) placement.moves = true;
+        if (!deforms(collider.shape)) continue;
+        placement.moves = true;
+        placement.reach += reachOf(collider.shape, begin, begin + dt);
     }
     updateReach();
 }
@@ -68,7 +59,7 @@ void PlacedColliders::place(std::size_t collider, const Pose& begin, const Pose&
     placement.end = end;
     placement.velocity = velocity;
     placement.ballCentre = end.toWorld(colliders_->boundingBall(collider).centre);
-    placement.reach = reachOf(placement, colliders_->boundingBall(collider), dt_);
+    placement.reach = motionReach(begin, end, velocity, colliders_->boundingBall(collider), dt_);
     updateReach();
 }
 
@@ -92,7 +83,7 @@ Probe PlacedColliders::probe(const Vec3d& position, double radius) const
             }
         }
         const Vec3d local = placement.moves ? placement.end.toLocal(position) : position;
-        const Nearness near = nearnessOf((*colliders_)[i].shape, local, radius, placement.endShare);
+        const Nearness near = nearnessOf((*colliders_)[i].shape, local, radius, placement.endTime);
         const double gap = near.phi - radius;
         if (gap < probe.gap) {
             probe.gap = gap;
@@ -107,8 +98,8 @@ bool PlacedColliders::normalAt(std::size_t collider, const Vec3d& position, Vec3
 {
     const Placement& placement = placements_[collider];
     const Shape& shape = (*colliders_)[collider].shape;
-    if (!placement.moves) return outwardNormal(shape, position, 0.0, normal);
-    if (!outwardNormal(shape, placement.end.toLocal(position), placement.endShare, normal)) return false;
+    if (!placement.moves) return outwardNormal(shape, position, placement.endTime, normal);
+    if (!outwardNormal(shape, placement.end.toLocal(position), placement.endTime, normal)) return false;
     normal = placement.end.vectorToWorld(normal);
     return true;
 }
@@ -119,7 +110,8 @@ bool PlacedColliders::wayOut(std::size_t collider, const Vec3d& position, Vec3d&
     if (normalAt(collider, position, direction)) return true;
     const Placement& placement = placements_[collider];
     Vec3d way;
-    if (!nearestOutsideOf((*colliders_)[collider].shape, placement.end.toLocal(position), way)) return false;
+    if (!nearestOutsideOf((*colliders_)[collider].shape, placement.end.toLocal(position), placement.endTime, way))
+        return false;
     distance = way.norm();
     if (!(distance > 0.0)) return false;
     direction = placement.end.vectorToWorld(way / distance);
@@ -131,7 +123,7 @@ Vec3d PlacedColliders::surfaceVelocity(std::size_t collider, const Vec3d& positi
     const Placement& placement = placements_[collider];
     if (!placement.moves) return Vec3d::Zero();
     const Vec3d deforming =
-        deformationVelocity((*colliders_)[collider].shape, placement.end.toLocal(position), placement.endShare);
+        deformationVelocity((*colliders_)[collider].shape, placement.end.toLocal(position), placement.endTime);
     return placement.velocity.at(position) + placement.end.vectorToWorld(deforming);
 }
 
@@ -140,7 +132,7 @@ Vec3d PlacedColliders::carried(std::size_t collider, const Vec3d& position) cons
     const Placement& placement = placements_[collider];
     if (!placement.moves) return position;
     const Vec3d local = placement.begin.toLocal(position);
-    const Vec3d deforming = deformationVelocity((*colliders_)[collider].shape, local, placement.beginShare);
+    const Vec3d deforming = deformationVelocity((*colliders_)[collider].shape, local, placement.beginTime);
     return placement.end.toWorld(local + dt_ * deforming);
 }
 

@@ -20,9 +20,9 @@ struct Placement {
     bool moves = false; ///< else the poses are the identity
     Pose begin;
     Pose end;
-    RigidVelocity velocity;  ///< at the end of the step
-    double beginShare = 0.0; ///< of deforming: see DeformingField
-    double endShare = 0.0;
+    RigidVelocity velocity; ///< at the end of the step
+    double beginTime = 0.0; ///< seconds
+    double endTime = 0.0;
     double reach = 0.0; ///< the farthest that any of its points moves in the step, world units; infinite for planes
                         ///< that turn
     Vec3d ballCentre = Vec3d::Zero(); ///< at the end of the step
@@ -30,6 +30,7 @@ struct Placement {
 
     /// The pose at a time of the step, 0 to 1: the centre of motion moves straight, the rotation evenly.
     Pose between(double share) const;
+    double timeAt(double share) const { return beginTime + share * (endTime - beginTime); }
 
     /// Where the collider's point that is at `world` at that time is at the end of the step.
     Vec3d atEnd(const Vec3d& world, double share) const
@@ -83,7 +84,7 @@ public:
     /// Where the point of a collider that is at `position` when the step begins is when it ends.
     Vec3d carried(std::size_t collider, const Vec3d& position) const;
 
-    double smallestVoxel() const { return colliders_->smallestVoxel(); }
+    double wallLength() const { return colliders_->wallLength(); }
 
 private:
     void updateReach();

@@ -18,6 +18,11 @@ constexpr double kMostPieces = 1024.0;
 constexpr double kShortestStrideVx = 0.25;
 constexpr double kMostStrides = 1e5;
 
+// Pieces and strides along a path before a surface by formula, as shares of the path and of its pieces: what is thinner
+// along the path than this may be missed.
+constexpr double kSagittaShare = 1e-3;
+constexpr double kShortestStride = 1e-4;
+
 // Halvings of a bracket that is a stride long: to a ten-millionth of it.
 constexpr int kHalvings = 24;
 
@@ -95,30 +100,62 @@ std::optional<double> touchOf(const FieldPtr& field, const RelativePath& path, d
     return std::nullopt;
 }
 
+// The last place known to be free, between one that is and one that is not.
+template <class Gap> double halvedDown(const Gap& gap, double free, double inside)
+{
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (free + inside);
+        (gap(middle) < 0.0 ? inside : free) = middle;
+    }
+    return free;
+}
+
 std::optional<double> touchOf(const DeformingShape& shape, const RelativePath& path, double radius,
                               const Placement& placement, double end)
 {
     const DeformingField& field = *shape.field;
     if (field.empty()) return std::nullopt;
-    const auto gap = [&](double t) {
-        return field.phi(path.at(t), placement.beginShare + t * (placement.endShare - placement.beginShare)) - radius;
-    };
+    const auto gap = [&](double t) { return field.phi(path.at(t), shape.shareAt(placement.timeAt(t))) - radius; };
     const double length = (path.at(end) - path.at(0.0)).norm();
     if (!(length > 0.0)) return std::nullopt;
     const double shortest = end * std::max(kShortestStrideVx * field.voxelSize() / length, 1.0 / kMostStrides);
     double free = 0.0;
     for (double t = 0.0;;) {
         if (gap(t) < 0.0) {
-            for (int i = 0; i < kHalvings; ++i) {
-                const double middle = 0.5 * (free + t);
-                (gap(middle) < 0.0 ? t : free) = middle;
-            }
-            return free;
+            return halvedDown(gap, free, t);
         }
         if (t >= end) return std::nullopt;
         free = t;
         t = std::min(end, t + std::max(shortest, end * field.clearance(path.at(t), radius) / length));
     }
+}
+
+// A surface by formula: strides that cannot reach it (conservative advancement, Mirtich 1996).
+std::optional<double> touchOf(const std::shared_ptr<const ImplicitField>& field, const RelativePath& path,
+                              double radius, const Placement& placement, double end)
+{
+    const auto gap = [&](double t) { return field->phi(path.at(t), placement.timeAt(t)) - radius; };
+    const double length = (path.at(end) - path.at(0.0)).norm();
+    const double sagitta = kSagittaShare * length;
+    const int pieces = path.pieces(sagitta);
+    const double moved = field->reach(placement.beginTime, placement.endTime);
+    double free = 0.0;
+    for (int piece = 0; piece < pieces; ++piece) {
+        const double begin = end * piece / pieces;
+        const double stop = end * (piece + 1) / pieces;
+        // The curved way is longer than its chord by no more than this.
+        const double way = (path.at(stop) - path.at(begin)).norm() + 8.0 * sagitta;
+        const double speed = (way + moved) * field->lipschitz() / (stop - begin);
+        const double shortest = kShortestStride * (stop - begin);
+        for (double t = begin;;) {
+            const double clear = gap(t);
+            if (clear < 0.0) return halvedDown(gap, free, t);
+            free = t;
+            if (t >= stop || !(speed > 0.0)) break;
+            t = std::min(stop, t + std::max(shortest, clear / speed));
+        }
+    }
+    return std::nullopt;
 }
 
 // Whether the way from one place to the other comes as near to the ball's centre as its radius.
@@ -137,12 +174,12 @@ void describeHit(const PlacedColliders& colliders, const RelativePath& path, con
 {
     const Placement& placement = colliders.placement(hit.collider);
     hit.position = from + hit.when * (to - from);
-    const double share = placement.beginShare + hit.when * (placement.endShare - placement.beginShare);
+    const double time = placement.timeAt(hit.when);
     // The way that it takes there; a share of the step before, as the path may curve.
     const double before = std::max(0.0, hit.when - kDirectionShare);
     const Vec3d direction = path.at(before + kDirectionShare) - path.at(before);
     const Vec3d local = path.at(hit.when);
-    hit.hasNormal = outwardNormalAgainst(colliders[hit.collider].shape, local, share, direction, hit.normal);
+    hit.hasNormal = outwardNormalAgainst(colliders[hit.collider].shape, local, time, direction, hit.normal);
     if (hit.hasNormal && placement.moves) hit.normal = placement.between(hit.when).vectorToWorld(hit.normal);
 }
 

@@ -83,6 +83,8 @@ public:
     const LinearTransform& transform() const { return transform_; }
     double voxelSize() const { return transform_.smallestVoxelSize(); }
     double background() const { return background_; }
+    /// The width of the band inside, world units: phi is its negative where the surface is farther.
+    double interior() const { return interior_; }
 
     /// The most that a voxel is off for the storage that was asked for, measured over all of them; 0 for
     /// Storage::Float. phi in the box is off by no more, with Lookup::Cubic by up to 2 times as much. A gradient's

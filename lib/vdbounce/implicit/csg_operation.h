@@ -5,8 +5,8 @@
 #include <cmath>
 
 /// @file
-/// Set operations on solids that are given by a function, negative inside: the lecture's min and max (slides 17 and 27),
-/// and smooth ones that round the edge where the two surfaces meet.
+/// Set operations on solids that are given by a function, negative inside: the lecture's min and max (slides 17 and
+/// 27), and smooth ones that round the edge where the two surfaces meet.
 
 namespace vdbounce {
 
@@ -43,8 +43,8 @@ inline double combine(CsgOperation operation, double a, double b, double blend =
     return -a;
 }
 
-/// The derivatives of combine() along a and b, each in [-1, 1]: gradients add up with them. Their absolute values add up
-/// to 1 and are the shares with which what belongs to a surface (its velocity, its friction) adds up.
+/// The derivatives of combine() along a and b, each in [-1, 1]: gradients add up with them. Their absolute values add
+/// up to 1 and are the shares with which what belongs to a surface (its velocity, its friction) adds up.
 struct CsgWeights {
     double a;
     double b;

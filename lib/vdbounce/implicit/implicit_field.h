@@ -22,9 +22,9 @@ public:
 
     virtual double phi(const Vec3d& world, double time) const = 0;
 
-    /// phi, and its gradient: of length 1, pointing out, also inside. At points with several nearest places of the
-    /// surface (a sphere's centre, a box's diagonals) that of one of them. Zero only where no direction is known, as
-    /// deep in a level set's narrow band.
+    /// phi, and its gradient: of length 1, pointing out, also inside; shorter where CSG rounds an edge. At points with
+    /// several nearest places of the surface (a sphere's centre, a box's diagonals) that of one of them. Zero only
+    /// where no direction is known, as deep in a level set's narrow band.
     virtual FieldSample sample(const Vec3d& world, double time) const = 0;
 
     /// phi at `count` points in a row: out[i] is phi(from + i * step).
@@ -43,7 +43,13 @@ public:
     /// How far a particle can move in any direction, at that time, without phi falling below its radius; >= 0.
     virtual double clearance(const Vec3d& world, double radius, double time) const
     {
-        return std::max(0.0, phi(world, time) - radius);
+        return std::max(0.0, phi(world, time) - radius) / lipschitz();
+    }
+
+    /// The same of its complement: without -phi falling below the radius.
+    virtual double clearanceInside(const Vec3d& world, double radius, double time) const
+    {
+        return std::max(0.0, -phi(world, time) - radius) / lipschitz();
     }
 
     /// No two points differ in phi by more than this times their distance; at least 1.

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -73,11 +74,16 @@ using ShapeFormula =
 ///     auto ball = makeField(SphereShape{Vec3d(0, 1, 0), 0.5});
 ///     double phi = ball->phi(Vec3d(0, 2, 0), 0.0); // 0.5
 ///
-/// Throws UsageError for what is not finite or of no size; `place` says whose, "sphere" or "collider 'a'".
-std::shared_ptr<const ImplicitField> makeField(const ShapeFormula& shape, const std::string& place);
-
-/// The same; the place is the shape's name.
+/// Throws UsageError for a shape with a fault.
 std::shared_ptr<const ImplicitField> makeField(const ShapeFormula& shape);
+
+/// A value that is not finite or makes a shape of no size, by its name in scenes: "radius".
+struct ShapeFault {
+    std::string name;
+    std::string what;
+    std::string remedy;
+};
+std::optional<ShapeFault> findFault(const ShapeFormula& shape);
 
 /// "plane", "sphere", ...
 const char* nameOf(const ShapeFormula& shape);

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/scene/collider_table.h"
 
-#include "vdbounce/base/error.h"
+#include "vdbounce/scene/shape_table.h"
 
 #include <cmath>
-#include <filesystem>
 
 namespace vdbounce {
 namespace {
-
-ColliderSpec::Plane readPlane(SceneTable table)
-{
-    ColliderSpec::Plane plane;
-    plane.point = table.vector("point", plane.point);
-    plane.normal = table.vector("normal", plane.normal);
-    table.finish();
-    return plane;
-}
 
 Motion::Key readKey(SceneTable table)
 {
@@ -65,21 +55,11 @@ ColliderSpec::Body readBody(SceneTable& table)
     return body;
 }
 
-void requireOneForm(const ColliderSpec& collider, const SceneTable& table)
-{
-    const int forms = int(!collider.file.empty()) + int(!collider.sequence.empty()) + int(collider.plane.has_value());
-    if (forms != 1) {
-        table.fail("file", "and sequence and plane: exactly one is needed",
-                   "give file = \"shape.vdb\", sequence = \"shape.####.vdb\" or plane = { point, normal }");
-    }
-    if (!collider.sequence.empty() && !hasFramePattern(collider.sequence))
-        table.fail("sequence", "has no #### for the frame", "write for example \"shape.####.vdb\", or use file");
-}
-
 void requireFreeToMove(const ColliderSpec& collider, const SceneTable& table)
 {
     if (!collider.body) return;
-    if (collider.plane) table.fail("mass", "is set, and a plane is endless", "remove it, or use a level set");
+    if (collider.formula && std::holds_alternative<PlaneShape>(*collider.formula))
+        table.fail("mass", "is set, and a plane is endless", "remove it, or use a level set");
     if (!collider.sequence.empty()) table.fail("mass", "is set, and the collider deforms", "remove it, or use file");
     if (collider.motion.keyed())
         table.fail("mass", "is set, and motion has keys", "remove either: keys leave nothing for particles to move");
@@ -89,29 +69,18 @@ void requireFreeToMove(const ColliderSpec& collider, const SceneTable& table)
 
 } // namespace
 
-std::string resolvedPath(const std::string& sceneFile, const std::string& path)
-{
-    if (path.empty() || std::filesystem::path(path).is_absolute()) return path;
-    return (std::filesystem::path(sceneFile).parent_path() / path).string();
-}
-
-ColliderSpec readCollider(SceneTable table, const std::string& sceneFile, const std::string& name)
+ColliderSpec readCollider(SceneTable& table, const std::string& sceneFile, const std::string& name)
 {
     ColliderSpec collider;
     collider.name = name;
     table.text("name", name);
-    collider.file = resolvedPath(sceneFile, table.text("file", ""));
-    collider.sequence = resolvedPath(sceneFile, table.text("sequence", ""));
-    if (table.has("plane")) collider.plane = readPlane(table.table("plane"));
-    for (const char* key : {"sphere", "box", "capsule", "cylinder", "torus", "heightfield", "csg"})
-        table.refuseForNow(key, "use a level-set file or a plane");
+    readForm(table, sceneFile, collider);
     collider.restitution = table.number("restitution", collider.restitution);
     collider.friction = table.number("friction", collider.friction);
     const OnHit choices[] = {OnHit::Bounce, OnHit::Stick, OnHit::Delete};
     collider.onHit = choices[table.choice("on_hit", {"bounce", "stick", "delete"}, 0)];
     if (table.has("motion")) collider.motion = readMotion(table.table("motion"));
     if (table.has("mass")) collider.body = readBody(table);
-    requireOneForm(collider, table);
     requireFreeToMove(collider, table);
     table.finish();
     return collider;

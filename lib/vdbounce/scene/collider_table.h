@@ -9,9 +9,6 @@
 namespace vdbounce {
 
 /// Reads one [[collider]]. Throws InputError as SceneTable does.
-ColliderSpec readCollider(SceneTable table, const std::string& sceneFile, const std::string& name);
-
-/// A path as a scene file has it, which starts at the file's folder.
-std::string resolvedPath(const std::string& sceneFile, const std::string& path);
+ColliderSpec readCollider(SceneTable& table, const std::string& sceneFile, const std::string& name);
 
 } // namespace vdbounce

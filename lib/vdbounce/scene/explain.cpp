@@ -27,6 +27,25 @@ std::string describeShape(const DeformingShape& shape)
            numberText(first.voxelSize()) + ", band " + numberText(first.background());
 }
 
+std::string describeShape(const std::shared_ptr<const ImplicitField>& field)
+{
+    return std::string(field->exact() ? "exact distance by formula" : "combined by formula") +
+           (field->still() ? "" : ", its parts move");
+}
+
+// What the scene calls it, and what it is made of.
+std::string describeForm(const ColliderSpec& spec)
+{
+    if (spec.csg) {
+        const char* const kNames[] = {"union", "intersection", "subtraction", "complement"};
+        std::string text = std::string("csg ") + kNames[int(spec.csg->operation)] + " of ";
+        for (const std::string& name : spec.csg->of) text += (name == spec.csg->of.front() ? "'" : ", '") + name + "'";
+        return text + ", ";
+    }
+    const bool named = spec.formula && !std::holds_alternative<PlaneShape>(*spec.formula);
+    return named ? std::string(nameOf(*spec.formula)) + ", " : "";
+}
+
 std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
 {
     switch (scene.sweep) {
@@ -34,7 +53,7 @@ std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
     case Sweep::Never: return "sweep: left out (never); fast particles may pass through thin walls";
     case Sweep::Auto: break;
     }
-    return "sweep: only for steps longer than " + numberText(0.5 * colliders.smallestVoxel()) +
+    return "sweep: only for steps longer than " + numberText(0.5 * colliders.wallLength()) +
            " that may touch something on the way";
 }
 
@@ -84,10 +103,11 @@ std::vector<std::string> explainScene(const Scene& scene)
                     " steps of " + numberText(scene.dt) + " s");
     lines.push_back("particles: " + scene.particleFile + ", radius " + numberText(defaults.radius) + " and mass " +
                     numberText(defaults.mass) + " where it carries none");
+    const std::vector<const ColliderSpec*> specs = collidersMet(scene);
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const Collider& collider = colliders[i];
-        lines.push_back("collider '" + collider.name +
-                        "': " + std::visit([](const auto& shape) { return describeShape(shape); }, collider.shape) +
+        lines.push_back("collider '" + collider.name + "': " + describeForm(*specs[i]) +
+                        std::visit([](const auto& shape) { return describeShape(shape); }, collider.shape) +
                         ", restitution " + numberText(collider.restitution) + ", friction " +
                         numberText(collider.friction));
     }

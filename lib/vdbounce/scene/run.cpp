@@ -86,13 +86,13 @@ public:
           colliders_(loader_.onTheWayTo(options.firstFrame)), defaults_(particleDefaults(scene, colliders_)),
           particles_(readParticles(startFile(scene, options.firstFrame)))
     {
-        requireBandsForRadius(scene_, colliders_, particles_, defaults_, options.firstFrame);
+        loader_.requireBandsForRadius(colliders_, particles_, defaults_);
         requireRestart();
         requireKnownColliders();
         report_.particles = particles_.size();
         report_.tally = StepTally(colliders_.size());
         report_.energyInitial = totalEnergy(particles_, defaults_, scene_.gravity);
-        for (const ColliderSpec& collider : scene_.colliders) report_.colliderNames.push_back(collider.name);
+        for (const ColliderSpec* collider : collidersMet(scene_)) report_.colliderNames.push_back(collider->name);
     }
 
     RunReport run()
@@ -109,7 +109,7 @@ public:
         for (int frame = options_.firstFrame + 1; frame <= lastFrame_; ++frame) {
             if (loader_.deforming()) {
                 colliders_ = loader_.onTheWayTo(frame);
-                requireBandsForRadius(scene_, colliders_, particles_, defaults_, frame);
+                loader_.requireBandsForRadius(colliders_, particles_, defaults_);
                 pass.setColliders(colliders_);
             }
             advance(pass, frame);

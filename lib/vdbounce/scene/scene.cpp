@@ -5,6 +5,7 @@
 #include "vdbounce/io/number_text.h"
 
 #include <cmath>
+#include <set>
 
 namespace vdbounce {
 namespace {
@@ -25,6 +26,10 @@ void checkCollider(const ColliderSpec& collider, const std::string& path, Checke
                     collider.restitution, "give 0 to 1");
     checker.require(collider.friction >= 0.0 && std::isfinite(collider.friction), path + ".friction", collider.friction,
                     "give 0 or more");
+    if (collider.csg) {
+        checker.require(collider.csg->blend.value >= 0.0 && std::isfinite(collider.csg->blend.value),
+                        path + ".csg.blend", collider.csg->blend.value, "give 0 or more");
+    }
     if (collider.body) {
         checker.require(collider.body->mass > 0.0 && std::isfinite(collider.body->mass), path + ".mass",
                         collider.body->mass, "give a positive mass");
@@ -34,12 +39,6 @@ void checkCollider(const ColliderSpec& collider, const std::string& path, Checke
         checker.require((inertia.array() > 0.0).all() && inertia.allFinite(), path + ".inertia", inertia.minCoeff(),
                         "give three positive moments");
     }
-    if (!collider.plane) return;
-    const double length = collider.plane->normal.norm();
-    checker.require(length > 0.0 && std::isfinite(length), path + ".plane.normal", length,
-                    "give a normal that is not zero");
-    checker.require(collider.plane->point.allFinite(), path + ".plane.point", collider.plane->point.norm(),
-                    "give finite numbers");
 }
 
 // Where the last # of the file's name is; a # in a folder's name is none.
@@ -78,6 +77,19 @@ std::optional<SceneFault> findFault(const Scene& scene)
         checkCollider(scene.colliders[i], "collider[" + std::to_string(i) + "]", checker);
     }
     return checker.fault;
+}
+
+std::vector<const ColliderSpec*> collidersMet(const Scene& scene)
+{
+    std::set<std::string> operands;
+    for (const ColliderSpec& collider : scene.colliders) {
+        if (collider.csg) operands.insert(collider.csg->of.begin(), collider.csg->of.end());
+    }
+    std::vector<const ColliderSpec*> met;
+    for (const ColliderSpec& collider : scene.colliders) {
+        if (operands.count(collider.name) == 0) met.push_back(&collider);
+    }
+    return met;
 }
 
 void validate(const Scene& scene)

@@ -3,42 +3,15 @@
 
 #include "vdbounce/base/length.h"
 #include "vdbounce/base/vector.h"
-#include "vdbounce/contact/motion.h"
 #include "vdbounce/contact/particle_contact.h"
 #include "vdbounce/contact/step.h"
+#include "vdbounce/scene/collider_spec.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace vdbounce {
-
-/// One `[[collider]]` of a scene: a level-set file, a sequence of them or an analytic shape, and how it answers.
-struct ColliderSpec {
-    struct Plane {
-        Vec3d point = Vec3d::Zero();
-        Vec3d normal = Vec3d(0.0, 1.0, 0.0); ///< points out; any length but 0
-    };
-    /// Of a collider that particles move. What is left out is that of a body of even density.
-    struct Body {
-        double mass = 1.0;            ///< > 0
-        std::optional<Vec3d> centre;  ///< of mass, world units, as in the file
-        std::optional<Vec3d> inertia; ///< principal moments about the centre, along the axes as in the file; > 0
-    };
-
-    std::string name;
-    // Exactly one of these three.
-    std::string file;     ///< a level set
-    std::string sequence; ///< a level set a frame, #### for the frame; interpolated in between
-    std::optional<Plane> plane;
-
-    double restitution = 0.3; ///< 0 to 1
-    double friction = 0.5;    ///< >= 0
-    OnHit onHit = OnHit::Bounce;
-    /// None, constant or through keys. With `body` none or constant: the velocities at the start.
-    Motion motion;
-    std::optional<Body> body; ///< present: it moves by gravity and by what hits it
-};
 
 /// A scene as its file states it, paths resolved. The defaults are those of the scene file.
 struct Scene {
@@ -66,6 +39,9 @@ struct Scene {
     int every = 1;          ///< >= 1
     bool hits = false;      ///< write what is known of each particle's last collision
 };
+
+/// The colliders that particles meet: all but those that CSG takes as operands, in the scene's order.
+std::vector<const ColliderSpec*> collidersMet(const Scene& scene);
 
 /// A value that is out of range, and where it stands in the scene file: "time.dt", "collider[0].friction".
 struct SceneFault {

@@ -3,11 +3,14 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/contact/body_mass.h"
+#include "vdbounce/contact/shape_field.h"
+#include "vdbounce/implicit/csg_field.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/number_text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vdbounce {
 namespace {
@@ -32,8 +35,9 @@ std::optional<BodyMass> bodyOf(const ColliderSpec& spec, const Shape& shape)
     if (!spec.body) return std::nullopt;
     const auto even = evenDensity(shape, spec.body->mass);
     if (!even) {
-        throw InputError(spec.file, "has no closed inside, so nothing tells how its mass is spread",
-                         "remove the collider's mass, or write a closed level set");
+        throw InputError(spec.file.empty() ? "collider '" + spec.name + "'" : spec.file,
+                         "has no closed inside that keeps its form, so nothing tells how its mass is spread",
+                         "remove the collider's mass, or close it");
     }
     BodyMass body = *even;
     body.centre = spec.body->centre.value_or(body.centre);
@@ -63,15 +67,17 @@ double inWorld(const Length& length, const char* key, const ColliderSet& collide
     return length.world(colliders.smallestVoxel());
 }
 
-void requireBand(const DistanceField& field, const std::string& file, double reach, double radius)
+// `band` is the width of the narrow band on the `side` that is touched.
+void requireBand(const DistanceField& field, double band, const std::string& file, const std::string& side,
+                 double reach, double radius)
 {
     const double needed = reach + kLookupReachVx * field.voxelSize();
-    if (field.empty() || reach == 0.0 || field.background() >= needed * (1.0 - 1e-6)) return;
+    if (field.empty() || reach == 0.0 || band >= needed * (1.0 - 1e-6)) return;
     throw InputError(file,
-                     "its narrow band of " + numberText(field.background()) + " is too thin for a particle radius of " +
+                     "its narrow band of " + numberText(band) + " is too thin for a particle radius of " +
                          numberText(radius) +
                          (reach > radius ? " and repulsion from " + numberText(reach - radius) + " on" : ""),
-                     "make it with --exterior " + numberText(std::ceil(needed / field.voxelSize())) + "vx or more");
+                     "make it with --" + side + " " + numberText(std::ceil(needed / field.voxelSize())) + "vx or more");
 }
 
 } // namespace
@@ -101,8 +107,15 @@ SceneColliders::Moment SceneColliders::momentOf(const std::string& sequence, int
 
 Shape SceneColliders::shapeOf(const ColliderSpec& spec, int frame)
 {
-    if (spec.plane) return PlaneField(spec.plane->point, spec.plane->normal);
-    if (spec.sequence.empty()) return fields_.at(spec.file);
+    if (spec.csg) return csgOf(spec, frame);
+    if (!spec.sequence.empty()) return deformingShape(spec, frame);
+    if (!spec.formula) return fields_.at(spec.file);
+    if (const auto* plane = std::get_if<PlaneShape>(&*spec.formula)) return PlaneField(plane->point, plane->normal);
+    return makeField(*spec.formula);
+}
+
+Shape SceneColliders::deformingShape(const ColliderSpec& spec, int frame)
+{
     const double seconds = scene_.stepsPerFrame * scene_.dt;
     const Moment from = momentOf(spec.sequence, std::max(0, frame - 1));
     const Moment to = momentOf(spec.sequence, frame);
@@ -113,10 +126,36 @@ Shape SceneColliders::shapeOf(const ColliderSpec& spec, int frame)
     return shape;
 }
 
+Shape SceneColliders::csgOf(const ColliderSpec& spec, int frame)
+{
+    std::vector<std::shared_ptr<const ImplicitField>> operands;
+    double voxel = std::numeric_limits<double>::infinity();
+    for (const std::string& name : spec.csg->of) {
+        const ColliderSpec& operand = specOf(name);
+        operands.push_back(asField(shapeOf(operand, frame), operand.motion));
+        voxel = std::min(voxel, operands.back()->voxelSize());
+    }
+    if (spec.csg->blend.inVoxels && !std::isfinite(voxel)) {
+        throw UsageError("collider '" + spec.name + "' csg.blend",
+                         numberText(spec.csg->blend.value) + "vx is in voxels, and no operand has any",
+                         "give it in world units");
+    }
+    return std::make_shared<const CsgField>(spec.csg->operation, std::move(operands), spec.csg->blend.world(voxel));
+}
+
+const ColliderSpec& SceneColliders::specOf(const std::string& name) const
+{
+    for (const ColliderSpec& spec : scene_.colliders) {
+        if (spec.name == name) return spec;
+    }
+    throw UsageError("csg of '" + name + "'", "the scene has no collider of that name", "name another");
+}
+
 ColliderSet SceneColliders::onTheWayTo(int frame)
 {
     std::vector<Collider> colliders;
-    for (const ColliderSpec& spec : scene_.colliders) {
+    for (const ColliderSpec* met : collidersMet(scene_)) {
+        const ColliderSpec& spec = *met;
         Collider collider{spec.name, shapeOf(spec, frame), spec.restitution, spec.friction, spec.onHit, {}, {}};
         collider.body = bodyOf(spec, collider.shape);
         if (!collider.body) collider.motion = spec.motion;
@@ -142,18 +181,28 @@ StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders)
     return options;
 }
 
-void requireBandsForRadius(const Scene& scene, const ColliderSet& colliders, const Particles& particles,
-                           const ParticleDefaults& defaults, int frame)
+void SceneColliders::requireBandsForRadius(const ColliderSet& colliders, const Particles& particles,
+                                           const ParticleDefaults& defaults) const
 {
     const double radius = largestRadius(particles, defaults);
-    const double reach = radius + stepOptions(scene, colliders).repulsion.range;
-    for (std::size_t i = 0; i < colliders.size(); ++i) {
-        if (const auto* field = std::get_if<FieldPtr>(&colliders[i].shape))
-            requireBand(**field, scene.colliders[i].file, reach, radius);
-        if (const auto* shape = std::get_if<DeformingShape>(&colliders[i].shape))
-            for (const int end : {std::max(0, frame - 1), frame})
-                requireBand(end == frame ? shape->field->to() : shape->field->from(),
-                            framePath(scene.colliders[i].sequence, end), reach, radius);
+    const double reach = radius + stepOptions(scene_, colliders).repulsion.range;
+    for (const auto& [file, field] : fields_) requireBand(*field, field->background(), file, "exterior", reach, radius);
+    for (const auto& [sequence, moments] : moments_) {
+        for (const auto& [frame, moment] : moments)
+            requireBand(*moment.field, moment.field->background(), framePath(sequence, frame), "exterior", reach,
+                        radius);
+    }
+    for (const ColliderSpec& spec : scene_.colliders) {
+        if (!spec.csg) continue;
+        // What is taken away is touched from its inside.
+        const bool complement = spec.csg->operation == CsgOperation::Complement;
+        if (!complement && spec.csg->operation != CsgOperation::Subtraction) continue;
+        for (std::size_t i = complement ? 0 : 1; i < spec.csg->of.size(); ++i) {
+            const std::string& file = specOf(spec.csg->of[i]).file;
+            if (file.empty()) continue;
+            const DistanceField& field = *fields_.at(file);
+            requireBand(field, field.interior(), file, "interior", reach, radius);
+        }
     }
 }
 

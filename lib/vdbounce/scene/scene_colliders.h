@@ -25,6 +25,12 @@ public:
     /// throws InputError where one is missing.
     ColliderSet onTheWayTo(int frame);
 
+    /// Throws InputError when a particle is too large for the narrow band of a level set: phi is not known beyond it,
+    /// so touching at phi = radius would go unnoticed, as would coming within the range of repulsion. Names the band
+    /// that would do. Asks the level sets of the last frame.
+    void requireBandsForRadius(const ColliderSet& colliders, const Particles& particles,
+                               const ParticleDefaults& defaults) const;
+
 private:
     using FieldPtr = std::shared_ptr<const DistanceField>;
     struct Moment {
@@ -34,6 +40,9 @@ private:
 
     Moment momentOf(const std::string& sequence, int frame);
     Shape shapeOf(const ColliderSpec& spec, int frame);
+    Shape deformingShape(const ColliderSpec& spec, int frame);
+    Shape csgOf(const ColliderSpec& spec, int frame);
+    const ColliderSpec& specOf(const std::string& name) const;
 
     const Scene& scene_;
     std::map<std::string, FieldPtr> fields_;               // by file
@@ -46,11 +55,5 @@ ParticleDefaults particleDefaults(const Scene& scene, const ColliderSet& collide
 
 /// The options of a scene's steps; lengths in voxels need the colliders.
 StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders);
-
-/// Throws InputError when a particle is too large for a collider's narrow band: phi is not known beyond it, so touching
-/// at phi = radius would go unnoticed, as would coming within the range of repulsion. Names the band that would do.
-/// `frame` is the one that the colliders are on the way to.
-void requireBandsForRadius(const Scene& scene, const ColliderSet& colliders, const Particles& particles,
-                           const ParticleDefaults& defaults, int frame);
 
 } // namespace vdbounce

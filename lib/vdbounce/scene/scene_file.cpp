@@ -7,6 +7,7 @@
 #include "vdbounce/scene/collider_table.h"
 #include "vdbounce/scene/scene_overrides.h"
 #include "vdbounce/scene/scene_table.h"
+#include "vdbounce/scene/shape_table.h"
 
 #include <filesystem>
 #include <set>
@@ -78,6 +79,7 @@ void readColliders(const toml::table& root, const std::string& sceneFile, Scene&
                          "collider is not a list of tables", "write [[collider]] in double brackets");
     }
     std::set<std::string> names;
+    std::vector<SceneTable> tables;
     for (std::size_t i = 0; i < array->size(); ++i) {
         const toml::table& table = *(*array)[i].as_table();
         const std::string name = table["name"].value_or(std::string("collider") + std::to_string(i));
@@ -85,9 +87,10 @@ void readColliders(const toml::table& root, const std::string& sceneFile, Scene&
             throw InputError(sceneFile + ":" + std::to_string(table.source().begin.line),
                              "two colliders are called '" + name + "'", "give each a name of its own");
         }
-        scene.colliders.push_back(
-            readCollider(SceneTable(sceneFile, "collider '" + name + "'", table), sceneFile, name));
+        tables.emplace_back(sceneFile, "collider '" + name + "'", table);
+        scene.colliders.push_back(readCollider(tables.back(), sceneFile, name));
     }
+    requireOperands(scene.colliders, tables);
 }
 
 void readOutput(SceneTable table, const std::string& sceneFile, Scene& scene)

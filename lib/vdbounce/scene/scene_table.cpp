@@ -146,6 +146,20 @@ std::size_t SceneTable::choice(const char* key, const std::vector<std::string>& 
     return static_cast<std::size_t>(found - choices.begin());
 }
 
+std::vector<std::string> SceneTable::texts(const char* key)
+{
+    const toml::node* node = find(key);
+    std::vector<std::string> texts;
+    if (node == nullptr) return texts;
+    const toml::array* array = node->as_array();
+    if (array == nullptr) failType(key, "a list of texts");
+    for (const toml::node& entry : *array) {
+        if (!entry.is_string()) failType(key, "a list of texts");
+        texts.push_back(*entry.value<std::string>());
+    }
+    return texts;
+}
+
 SceneTable SceneTable::table(const char* key)
 {
     const std::string full = name_.empty() ? key : name_ + "." + key;
@@ -169,6 +183,11 @@ std::vector<SceneTable> SceneTable::tables(const char* key)
         tables.emplace_back(file_, (name_.empty() ? "" : name_ + ".") + key + "[" + std::to_string(i) + "]", *entry);
     }
     return tables;
+}
+
+void SceneTable::require(const char* key) const
+{
+    if (!has(key)) fail(key, "is missing", std::string("give ") + key);
 }
 
 void SceneTable::refuseForNow(const char* key, const std::string& remedy)

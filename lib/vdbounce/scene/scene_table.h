@@ -32,11 +32,16 @@ public:
     Length length(const char* key, const Length& otherwise);
     /// One of `choices`; returns its position.
     std::size_t choice(const char* key, const std::vector<std::string>& choices, std::size_t otherwise);
+    /// A list of texts; none where the key is left out.
+    std::vector<std::string> texts(const char* key);
     /// A table within this one; an empty one where the key is left out.
     SceneTable table(const char* key);
 
     /// A list of tables within this one.
     std::vector<SceneTable> tables(const char* key);
+
+    /// Refuses a table that lacks this key.
+    void require(const char* key) const;
 
     /// Refuses a key that a later version will know.
     void refuseForNow(const char* key, const std::string& remedy);
