@@ -73,6 +73,7 @@ int run(int argc, char** argv)
     app.footer("Lengths are world units, or voxels with the suffix vx. Vectors are x,y,z. 'vdbounce VERB --help' has "
                "an example of each.");
     addMesh2ls(app, common);
+    addMake(app, common);
     addInfo(app, common);
     addSample(app, common);
     addEmit(app, common);
