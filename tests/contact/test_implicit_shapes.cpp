@@ -30,7 +30,7 @@ std::vector<std::pair<const char*, FieldPtr>> forms()
     const auto ball = makeField(SphereShape{Vec3d(0.2, 0.3, 0.1), 0.5});
     return {{"sphere", ball},
             {"box", brick},
-            {"thin box", makeField(BoxShape{Vec3d::Zero(), Vec3d(1.0, 0.001, 1.0), {}})},
+            {"thin box", makeField(BoxShape{Vec3d::Zero(), Vec3d(1.0, 0.001, 1.0)})},
             {"capsule", makeField(CapsuleShape{Vec3d(-0.5, 0, 0), Vec3d(0.5, 0.3, 0), 0.2})},
             {"cylinder", makeField(CylinderShape{Vec3d(0, -0.4, 0), Vec3d(0.1, 0.4, 0), 0.6})},
             {"cone", makeField(ConeShape{Vec3d(0, -0.4, 0), Vec3d(0, 0.8, 0), 0.7, 0.0})},
@@ -106,37 +106,34 @@ TEST_CASE("a particle bounces in a hollow sphere for ever, with all its energy a
     const StillColliders colliders({{"hollow", hollow, 1.0, 0.0}});
     StepOptions options;
     options.gravity = Vec3d::Zero();
-    options.dt = 1e-3;
+    options.dt = 1e-4;
     options.sweep = Sweep::Always;
     StepTally tally(1);
     MovingParticle particle = placed(Vec3d(0.5, 0, 0), Vec3d(0, 3, 0), colliders);
     double farthest = 0.0;
     double nearest = 1.0;
-    for (int s = 0; s < 20000; ++s) {
+    for (int s = 0; s < 200000; ++s) {
         step(particle, colliders, options, tally);
         farthest = std::max(farthest, particle.position.norm());
         nearest = std::min(nearest, particle.position.norm());
     }
     CHECK(farthest <= 1.0);
     CHECK(particle.velocity.norm() == Approx(3.0).epsilon(1e-9));
-    // Chords of a circle all pass the centre at the same distance.
+    // Chords of a circle all pass the centre at the same distance; a bounce may turn one by what a step moves.
     CHECK(nearest == Approx(0.5).margin(0.01));
     CHECK(tally.contacts > 20);
 }
 
 TEST_CASE("a particle that rests on a slab falls through a hole that comes along")
 {
-    const auto slab = makeField(BoxShape{Vec3d::Zero(), Vec3d(2, 0.2, 2), {}});
+    const auto slab = makeField(BoxShape{Vec3d::Zero(), Vec3d(2, 0.2, 2)});
     const Motion along(Motion::Constant{Vec3d(1, 0, 0), Vec3d::Zero(), Vec3d::Zero()});
     const auto hole = asField(Shape(makeField(CylinderShape{Vec3d(-1.5, -1, 0), Vec3d(-1.5, 1, 0), 0.3})), along);
     const ColliderSet set({{"slab", csg(CsgOperation::Subtraction, {slab, hole}), 0.0, 0.8}});
     StepOptions options;
     options.dt = 0.002;
     StepTally tally(1);
-    MovingParticle particle;
-    particle.position = Vec3d(0, 0.25, 0);
-    particle.radius = 0.05;
-    settle(particle, PlacedColliders(set, 0.0, options.dt));
+    MovingParticle particle = placed(Vec3d(0, 0.25, 0), Vec3d::Zero(), PlacedColliders(set, 0.0, options.dt), 0.05);
     double time = 0.0;
     const auto until = [&](double end) {
         for (; time < end; time += options.dt) step(particle, PlacedColliders(set, time, options.dt), options, tally);
@@ -154,7 +151,7 @@ TEST_CASE("shapes by formula have the mass that theory says")
     REQUIRE(ball);
     CHECK((ball->centre - Vec3d(1, 2, 3)).norm() < 1e-3);
     CHECK(ball->inertia(0, 0) == Approx(0.4 * 4.0 * 0.25).epsilon(2e-3));
-    const auto brick = evenDensity(makeField(BoxShape{Vec3d::Zero(), Vec3d(1, 0.5, 0.25), {}}), 3.0);
+    const auto brick = evenDensity(makeField(BoxShape{Vec3d::Zero(), Vec3d(1, 0.5, 0.25)}), 3.0);
     REQUIRE(brick);
     CHECK(brick->inertia(2, 2) == Approx(3.0 / 12.0 * (4.0 + 1.0)).epsilon(5e-3));
     CHECK_FALSE(evenDensity(makeField(PlaneShape{}), 1.0));

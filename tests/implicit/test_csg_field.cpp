@@ -25,7 +25,7 @@ FieldPtr complement(FieldPtr a) { return csg(CsgOperation::Complement, {std::mov
 const Box kAround{Vec3d::Constant(-1.5), Vec3d::Constant(1.5)};
 
 FieldPtr ball() { return makeField(SphereShape{Vec3d(-0.2, 0.1, 0), 0.7}); }
-FieldPtr brick() { return makeField(BoxShape{Vec3d(0.3, 0, 0.1), Vec3d(0.6, 0.4, 0.5), {}}); }
+FieldPtr brick() { return makeField(BoxShape{Vec3d(0.3, 0, 0.1), Vec3d(0.6, 0.4, 0.5)}); }
 FieldPtr ring() { return makeField(TorusShape{Vec3d(0, 0.2, 0), Vec3d(0, 1, 0), 0.8, 0.2}); }
 
 // Something of every kind, moving operands included.
@@ -111,9 +111,9 @@ TEST_CASE("the gradient of CSG is the derivative of its phi, and rows have the s
             INFO(name << " at " << p.transpose());
             REQUIRE(sample.phi == field->phi(p, time));
             REQUIRE(sample.gradient.dot(direction) == Approx(slope).margin(1e-3));
-            double row[20];
-            field->phiInRow(p, 0.05 * direction, 20, time, row);
-            for (int k = 0; k < 20; ++k) REQUIRE(row[k] == field->phi(p + double(k) * (0.05 * direction), time));
+            double row[ImplicitField::kLongestRow];
+            field->phiInRow(p, 0.05 * direction, ImplicitField::kLongestRow, time, row);
+            for (int k = 0; k < ImplicitField::kLongestRow; ++k) REQUIRE(row[k] == field->phi(p + double(k) * (0.05 * direction), time));
         }
     }
 }
@@ -141,7 +141,7 @@ TEST_CASE("within its clearance nothing of CSG comes nearer than a particle's ra
             if (left > 0.0) REQUIRE(field->phi(p + left * random.direction(), later) >= radius - 1e-6);
         }
         INFO(name);
-        CHECK(useful > 100);
+        CHECK(useful > 50);
     }
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("rounding an edge leaves all surfaces that are further apart than its 
 TEST_CASE("the surface of CSG moves as the operand whose surface it is")
 {
     const Motion moving(Motion::Constant{Vec3d(1, 0, 0), Vec3d::Zero(), Vec3d::Zero()});
-    const auto a = makeField(BoxShape{Vec3d::Zero(), Vec3d::Ones(), {}});
+    const auto a = makeField(BoxShape{Vec3d::Zero(), Vec3d::Ones()});
     const auto hole = asField(Shape(makeField(SphereShape{Vec3d(0, 1, 0), 0.5})), moving);
     const auto field = csg(CsgOperation::Subtraction, {a, hole});
     CHECK_FALSE(field->still());

@@ -47,7 +47,7 @@ const openvdb::CoordBBox kCube(openvdb::Coord(-40), openvdb::Coord(40));
 TEST_CASE("every voxel of a sampled shape has its phi, and beyond the band its sign")
 {
     const ShapeFormula shapes[] = {
-        SphereShape{Vec3d(0.01, 0.02, 0.03), 0.8}, BoxShape{Vec3d(0.1, 0, 0), Vec3d(0.7, 0.2, 0.5), {}},
+        SphereShape{Vec3d(0.01, 0.02, 0.03), 0.8}, BoxShape{Vec3d(0.1, 0, 0), Vec3d(0.7, 0.2, 0.5)},
         TorusShape{Vec3d::Zero(), Vec3d(0.3, 1, 0.1), 0.6, 0.2},
         ConeShape{Vec3d(0, -0.6, 0), Vec3d(0, 0.8, 0), 0.5, 0.0}, EllipsoidShape{Vec3d::Zero(), Vec3d(0.9, 0.4, 0.6)}};
     for (const ShapeFormula& shape : shapes) {
@@ -59,7 +59,7 @@ TEST_CASE("every voxel of a sampled shape has its phi, and beyond the band its s
         const LevelSetGrid grid = sampleField(*field, options);
         INFO(nameOf(shape));
         requireSampled(*field, toOpenVdb(grid), kCube, 0.09f, 0.135f);
-        CHECK(toOpenVdb(grid).background() == 0.09f);
+            CHECK(toOpenVdb(grid).background() == Approx(0.09));
     }
 }
 

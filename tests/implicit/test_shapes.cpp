@@ -214,7 +214,7 @@ TEST_CASE("where several places of the surface are nearest, the gradient is that
 {
     const std::pair<ShapeFormula, Vec3d> points[] = {
         {SphereShape{Vec3d(1, 2, 3), 0.5}, Vec3d(1, 2, 3)},
-        {BoxShape{Vec3d(1, 2, 3), Vec3d(0.5, 0.5, 0.5), {}}, Vec3d(1, 2, 3)},
+        {BoxShape{Vec3d(1, 2, 3), Vec3d(0.5, 0.5, 0.5)}, Vec3d(1, 2, 3)},
         {CapsuleShape{Vec3d(0, 0, 0), Vec3d(0, 1, 0), 0.2}, Vec3d(0, 0.5, 0)},
         {CylinderShape{Vec3d(0, 0, 0), Vec3d(0, 1, 0), 0.2}, Vec3d(0, 0.5, 0)},
         {ConeShape{Vec3d(0, 0, 0), Vec3d(0, 1, 0), 0.2, 0.0}, Vec3d(0, 0.2, 0)},
@@ -271,7 +271,7 @@ TEST_CASE("shapes of no size or without direction are refused by name")
         {PlaneShape{Vec3d(nan, 0, 0), Vec3d::UnitX()}, "plane point"},
         {SphereShape{Vec3d::Zero(), 0.0}, "sphere radius"},
         {SphereShape{Vec3d::Zero(), nan}, "sphere radius"},
-        {BoxShape{Vec3d::Zero(), Vec3d(1, -1, 1), {}}, "box half"},
+        {BoxShape{Vec3d::Zero(), Vec3d(1, -1, 1)}, "box half"},
         {BoxShape{Vec3d::Zero(), Vec3d(1, 1, 1), Eigen::Quaterniond(0, 0, 0, 0)}, "box rotate"},
         {CapsuleShape{Vec3d::Zero(), Vec3d::UnitX(), -1.0}, "capsule radius"},
         {CylinderShape{Vec3d::UnitX(), Vec3d::UnitX(), 1.0}, "cylinder to"},

@@ -116,6 +116,7 @@ void addBench(CLI::App& app, const CommonOptions& common)
     verb->footer("Example:\n  vdbounce bench field --json");
     addBenchField(*verb, common);
     addBenchMesh(*verb, common);
+    addBenchMake(*verb, common);
     addBenchCollide(*verb, common);
 }
 

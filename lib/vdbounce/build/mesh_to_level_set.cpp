@@ -10,6 +10,7 @@
 #include "vdbounce/build/mesh_warnings.h"
 #include "vdbounce/build/sign_choice.h"
 #include "vdbounce/build/space_regions.h"
+#include "vdbounce/field/grid_assembly.h"
 #include "vdbounce/io/number_text.h"
 
 #include <algorithm>
@@ -183,7 +184,7 @@ private:
 
     MeshToLevelSetResult finish()
     {
-        BandWidths band{float(exterior_), float(interior_)};
+        BandWidths band{bandWidth(exterior_), bandWidth(interior_)};
         if (leaves_.empty()) {
             band.interior = float(halfSheet_);
             leaves_ = std::move(sheets_);

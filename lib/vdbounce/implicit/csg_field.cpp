@@ -12,9 +12,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Box kEverywhere{Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
 
-// Lookups of a row that lie on the stack.
-constexpr int kRow = 16;
-
 } // namespace
 
 CsgField::CsgField(CsgOperation operation, std::vector<std::shared_ptr<const ImplicitField>> operands, double blend)
@@ -67,19 +64,14 @@ Vec3d CsgField::velocity(const Vec3d& world, double time) const
 
 void CsgField::phiInRow(const Vec3d& from, const Vec3d& step, int count, double time, double* out) const
 {
-    for (int done = 0; done < count; done += kRow) {
-        const int part = std::min(kRow, count - done);
-        const Vec3d start = from + double(done) * step;
-        double* result = out + done;
-        operands_[0]->phiInRow(start, step, part, time, result);
-        if (operation_ == CsgOperation::Complement) {
-            for (int k = 0; k < part; ++k) result[k] = -result[k];
-        }
-        double others[kRow];
-        for (std::size_t i = 1; i < operands_.size(); ++i) {
-            operands_[i]->phiInRow(start, step, part, time, others);
-            for (int k = 0; k < part; ++k) result[k] = combine(operation_, result[k], others[k], blend_);
-        }
+    operands_[0]->phiInRow(from, step, count, time, out);
+    if (operation_ == CsgOperation::Complement) {
+        for (int k = 0; k < count; ++k) out[k] = -out[k];
+    }
+    double others[kLongestRow];
+    for (std::size_t i = 1; i < operands_.size(); ++i) {
+        operands_[i]->phiInRow(from, step, count, time, others);
+        for (int k = 0; k < count; ++k) out[k] = combine(operation_, out[k], others[k], blend_);
     }
 }
 

@@ -18,6 +18,8 @@ namespace vdbounce {
 /// is the signed distance. Points are in world space, times in seconds; fields that do not move ignore them.
 class ImplicitField {
 public:
+    static constexpr int kLongestRow = 16;
+
     virtual ~ImplicitField() = default;
 
     virtual double phi(const Vec3d& world, double time) const = 0;
@@ -27,7 +29,7 @@ public:
     /// where no direction is known, as deep in a level set's narrow band.
     virtual FieldSample sample(const Vec3d& world, double time) const = 0;
 
-    /// phi at `count` points in a row: out[i] is phi(from + i * step).
+    /// phi at `count` points in a row, kLongestRow at most: out[i] is phi(from + i * step), to the bit.
     virtual void phiInRow(const Vec3d& from, const Vec3d& step, int count, double time, double* out) const = 0;
 
     /// phi is the signed distance everywhere.

@@ -91,8 +91,8 @@ public:
     Sampling(const ImplicitField& field, const SampleFieldOptions& options, const LinearTransform& transform,
              Progress& progress)
         : field_(field), options_(options), transform_(transform),
-          exterior_(float(options.exteriorVx * transform.voxelSize().maxCoeff())),
-          interior_(float(options.interiorVx * transform.voxelSize().maxCoeff())), progress_(progress),
+          exterior_(bandWidth(options.exteriorVx * transform.voxelSize().maxCoeff())),
+          interior_(bandWidth(options.interiorVx * transform.voxelSize().maxCoeff())), progress_(progress),
           within_(voxels())
     {
     }
