@@ -12,17 +12,17 @@ namespace {
 // Text quoted in an error stays readable whatever the file holds.
 constexpr std::size_t kQuotedCharacters = 40;
 
-std::string quoted(std::string_view token)
+bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+} // namespace
+
+std::string quotedText(std::string_view token)
 {
     std::string text = "'";
     for (char c : token.substr(0, kQuotedCharacters))
         text += (std::isprint(static_cast<unsigned char>(c)) != 0) ? c : '?';
     return text + (token.size() > kQuotedCharacters ? "...'" : "'");
 }
-
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-
-} // namespace
 
 TextCursor::TextCursor(std::string file, std::string_view text, Comments comments)
     : file_(std::move(file)), rest_(text), comments_(comments)
@@ -106,7 +106,8 @@ double TextCursor::requireNumber(const char* what)
     const std::string_view token = requireToken(what);
     const auto value = parseDouble(token);
     if (!value)
-        fail(quoted(token) + " is not a number where " + what + " is expected", "correct the file or export it again");
+        fail(quotedText(token) + " is not a number where " + what + " is expected",
+             "correct the file or export it again");
     return *value;
 }
 
@@ -115,7 +116,7 @@ std::int64_t TextCursor::requireInteger(const char* what)
     const std::string_view token = requireToken(what);
     const auto value = parseInteger(token);
     if (!value) {
-        fail(quoted(token) + " is not a whole number where " + what + " is expected",
+        fail(quotedText(token) + " is not a whole number where " + what + " is expected",
              "correct the file or export it again");
     }
     return *value;

@@ -7,6 +7,9 @@
 
 namespace vdbounce {
 
+/// The start of `token` in quotes, for an error message: readable whatever the file holds.
+std::string quotedText(std::string_view token);
+
 /// Walks through a text file token by token, counts lines, and reports what it does not understand as an
 /// InputError that names file and line. Tokens are separated by blanks; '#' starts a comment where `comments` says.
 class TextCursor {
