@@ -37,6 +37,13 @@ struct HeightCell {
                        : Vec3d((left - far) / stepX, 1.0, -left / stepZ);
     }
 
+    /// Where the upright through a point's foot on the right triangle's plane passes.
+    Vec3d foot(const Vec3d& p) const
+    {
+        const Foot found(p, right / stepX, (far - right) / stepZ);
+        return Vec3d(found.x, 0.0, found.z);
+    }
+
     /// From the nearest point of an edge to a point.
     Vec3d awayFrom(HeightCellPart edge, const Vec3d& p) const
     {
@@ -49,10 +56,11 @@ struct HeightCell {
         }
     }
 
-    HeightCellNearest nearest(const Vec3d& p) const
+    /// Infinitely far where it is farther than the root of `limit2` for certain.
+    HeightCellNearest nearest(const Vec3d& p, double limit2) const
     {
-        HeightCellNearest best = nearestOfRight(p);
-        const HeightCellNearest other = nearestOfLeft(p);
+        HeightCellNearest best = nearestOfRight(p, limit2);
+        const HeightCellNearest other = nearestOfLeft(p, limit2);
         if (other.distance2 < best.distance2) best = other;
         return best;
     }
@@ -73,37 +81,53 @@ private:
         if (distance2 < best.distance2) best = {distance2, edge};
     }
 
-    // Where the diagonal is nearest, it is found as the left triangle's.
-    HeightCellNearest nearestOfRight(const Vec3d& p) const
+    // A point's foot on the plane of a triangle, and its distance to the plane.
+    struct Foot {
+        double x;
+        double z;
+        double distance2;
+
+        Foot(const Vec3d& p, double slopeX, double slopeZ)
+        {
+            const double above = p.y() - slopeX * p.x() - slopeZ * p.z();
+            const double t = above / (1.0 + slopeX * slopeX + slopeZ * slopeZ);
+            x = p.x() + slopeX * t;
+            z = p.z() + slopeZ * t;
+            distance2 = above * t;
+        }
+    };
+
+    // On the plane it is at least as far from the foot to the cell as it is seen from above.
+    bool isWithin(const Foot& foot, double limit2) const
     {
-        const double slopeX = right / stepX;
-        const double slopeZ = (far - right) / stepZ;
-        const double above = p.y() - slopeX * p.x() - slopeZ * p.z();
-        const double t = above / (1.0 + slopeX * slopeX + slopeZ * slopeZ);
-        const double x = p.x() + slopeX * t;
-        const double z = p.z() + slopeZ * t;
+        const double x = std::max(0.0, std::max(-foot.x, foot.x - stepX));
+        const double z = std::max(0.0, std::max(-foot.z, foot.z - stepZ));
+        return foot.distance2 + x * x + z * z <= limit2;
+    }
+
+    // Where the diagonal is nearest, it is found as the left triangle's.
+    HeightCellNearest nearestOfRight(const Vec3d& p, double limit2) const
+    {
+        const Foot foot(p, right / stepX, (far - right) / stepZ);
         HeightCellNearest best{kFar, HeightCellPart::EdgeFront};
-        const bool beyondDiagonal = z * stepX > x * stepZ;
-        if (z >= 0.0 && x <= stepX && !beyondDiagonal) return {above * t, HeightCellPart::FaceRight};
-        if (z < 0.0) consider(best, HeightCellPart::EdgeFront, p);
-        if (x > stepX) consider(best, HeightCellPart::EdgeRight, p);
+        if (!isWithin(foot, limit2)) return best;
+        const bool beyondDiagonal = foot.z * stepX > foot.x * stepZ;
+        if (foot.z >= 0.0 && foot.x <= stepX && !beyondDiagonal) return {foot.distance2, HeightCellPart::FaceRight};
+        if (foot.z < 0.0) consider(best, HeightCellPart::EdgeFront, p);
+        if (foot.x > stepX) consider(best, HeightCellPart::EdgeRight, p);
         return best;
     }
 
-    HeightCellNearest nearestOfLeft(const Vec3d& p) const
+    HeightCellNearest nearestOfLeft(const Vec3d& p, double limit2) const
     {
-        const double slopeX = (far - left) / stepX;
-        const double slopeZ = left / stepZ;
-        const double above = p.y() - slopeX * p.x() - slopeZ * p.z();
-        const double t = above / (1.0 + slopeX * slopeX + slopeZ * slopeZ);
-        const double x = p.x() + slopeX * t;
-        const double z = p.z() + slopeZ * t;
+        const Foot foot(p, (far - left) / stepX, left / stepZ);
         HeightCellNearest best{kFar, HeightCellPart::Diagonal};
-        const bool beyondDiagonal = z * stepX < x * stepZ;
-        if (x >= 0.0 && z <= stepZ && !beyondDiagonal) return {above * t, HeightCellPart::FaceLeft};
+        if (!isWithin(foot, limit2)) return best;
+        const bool beyondDiagonal = foot.z * stepX < foot.x * stepZ;
+        if (foot.x >= 0.0 && foot.z <= stepZ && !beyondDiagonal) return {foot.distance2, HeightCellPart::FaceLeft};
         if (beyondDiagonal) consider(best, HeightCellPart::Diagonal, p);
-        if (x < 0.0) consider(best, HeightCellPart::EdgeLeft, p);
-        if (z > stepZ) consider(best, HeightCellPart::EdgeBack, p);
+        if (foot.x < 0.0) consider(best, HeightCellPart::EdgeLeft, p);
+        if (foot.z > stepZ) consider(best, HeightCellPart::EdgeBack, p);
         return best;
     }
 };

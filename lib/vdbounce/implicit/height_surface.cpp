@@ -14,6 +14,9 @@ constexpr double kRounding = 1e-13;
 // As many cells within reach are looked at one by one: for so few the pyramid costs more than it saves.
 constexpr int kFewCells = 20;
 
+// After as few steps down the slope the nearest cell is found on all but rough terrain.
+constexpr int kHops = 4;
+
 // Levels of a pyramid over an int of cells, three brothers waiting on each and four nodes to begin with.
 constexpr int kStackSize = 4 + 3 * 32;
 
@@ -46,6 +49,7 @@ public:
     void run(Cell start)
     {
         tryCell(start);
+        followSlope(start);
         const int left = grid_.cellX(p_.x() - reach_);
         const int right = grid_.cellX(p_.x() + reach_);
         const int front = grid_.cellZ(p_.z() - reach_);
@@ -79,12 +83,26 @@ private:
         limit2_ = reach_ * reach_;
     }
 
-    void tryCell(Cell cell)
+    // True if it is the nearest so far.
+    bool tryCell(Cell cell)
     {
-        const HeightCellNearest found = surface_.cell(cell).nearest(p_ - surface_.corner(cell));
-        if (found.distance2 >= best_.distance2) return;
+        const HeightCellNearest found = surface_.cell(cell).nearest(p_ - surface_.corner(cell), limit2_);
+        if (found.distance2 >= best_.distance2) return false;
         best_ = {found.distance2, cell, found.part};
         limit();
+        return true;
+    }
+
+    // Down or up the slope to where the surface is nearer than right below: the closer the first guess, the fewer cells
+    // are within its reach.
+    void followSlope(Cell cell)
+    {
+        for (int hop = 0; hop < kHops; ++hop) {
+            const Vec3d corner = surface_.corner(cell);
+            const Cell next = surface_.cellAt(corner + surface_.cell(cell).foot(p_ - corner));
+            if ((next.column == cell.column && next.row == cell.row) || !tryCell(next)) return;
+            cell = next;
+        }
     }
 
     // To the box around a node.
