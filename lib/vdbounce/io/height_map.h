@@ -29,7 +29,7 @@ struct HeightMap {
 /// comment. Empty lines are passed over, and so is a separator at the end of a line. All rows have as many numbers.
 ///
 /// Throws InputError with file, line and column, what is there and what to do.
-/// Cost: about 10 ns a pixel, 100 ns a number of text; the file's bytes besides the values.
+/// Cost: some 12 ns a pixel of 16 bits, 30 ns a number of text; the file's bytes besides the values.
 HeightMap readHeightMap(const std::string& path);
 
 } // namespace vdbounce
