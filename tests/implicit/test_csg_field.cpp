@@ -113,7 +113,8 @@ TEST_CASE("the gradient of CSG is the derivative of its phi, and rows have the s
             REQUIRE(sample.gradient.dot(direction) == Approx(slope).margin(1e-3));
             double row[ImplicitField::kLongestRow];
             field->phiInRow(p, 0.05 * direction, ImplicitField::kLongestRow, time, row);
-            for (int k = 0; k < ImplicitField::kLongestRow; ++k) REQUIRE(row[k] == field->phi(p + double(k) * (0.05 * direction), time));
+            for (int k = 0; k < ImplicitField::kLongestRow; ++k)
+                REQUIRE(row[k] == field->phi(p + double(k) * (0.05 * direction), time));
         }
     }
 }

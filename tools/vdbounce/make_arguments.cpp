@@ -20,7 +20,8 @@ void addMakeOptions(CLI::App& verb, MakeArguments& arguments)
     addLength(verb, "--exterior", arguments.exterior, "Half width of the band outside");
     addLength(verb, "--interior", arguments.interior, "Half width of the band inside");
     verb.add_option("--name", arguments.name, "Name of the grid")->capture_default_str();
-    verb.add_flag("--half", arguments.half, "Store 16-bit floats: half the size, 11 bits of precision");
+    // Not --half as elsewhere, which is half the sides of a box.
+    verb.add_flag("--half-floats", arguments.half, "Store 16-bit floats: half the size, 11 bits of precision");
     addBytes(verb, "--max-memory", arguments.maxMemory,
              "Refuse what would need more (default three quarters of the machine's)");
 }
