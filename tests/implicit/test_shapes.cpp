@@ -163,7 +163,7 @@ TEST_CASE("from anywhere, phi against the gradient leads to a shape's surface")
             REQUIRE_FALSE(known.inside(foot + 1e-9 * sample.gradient));
             // Behind an edge the inside begins in some direction, but not always straight behind.
             bool insideNear = known.inside(foot - 1e-9 * sample.gradient);
-            for (int k = 0; k < 200 && !insideNear; ++k) insideNear = known.inside(foot + 1e-9 * random.direction());
+            for (int k = 0; k < 2000 && !insideNear; ++k) insideNear = known.inside(foot + 1e-9 * random.direction());
             REQUIRE(insideNear);
         }
     }
