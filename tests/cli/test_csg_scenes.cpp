@@ -47,9 +47,11 @@ TEST_CASE("a scene's shapes by formula stop what falls on them")
         {"cone = { from = [0,-1,0], to = [0,0,0], radius = 0.5, top_radius = 0.2 }", 0.0},
         {"torus = { center = [0,0,0], axis = [1,0,0], major = 0.5, minor = 0.2 }", 0.7},
         {"ellipsoid = { center = [0,-0.5,0], radii = [1,0.5,1] }", 0.0},
+        {"heightfield = { file = \"map.txt\", min = [-1,0.3,-1], max = [1,1,1] }", 0.3},
         {"plane = { point = [0,0.2,0], normal = [0,1,0] }", 0.2}};
     for (const auto& [shape, top] : shapes) {
         const ShapeScene scene(std::string("[[collider]]\nrestitution = 0\n") + shape);
+        scene.write("map.txt", "0 0 0\n0 0 0\n");
         const ToolRun done = scene.run();
         INFO(shape << ": " << done.err);
         REQUIRE(done.exitCode == 0);

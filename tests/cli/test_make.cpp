@@ -47,6 +47,30 @@ TEST_CASE("make writes each shape as a level set whose surface is where it shoul
     }
 }
 
+TEST_CASE("make makes the solid under a map of heights")
+{
+    const TemporaryFolder folder;
+    folder.write("hills.csv", "0,0,0\n0,1,0\n0,0,0\n");
+    const std::string file = folder / "hills.vdb";
+    const ToolRun done = runTool("make heightfield " + (folder / "hills.csv") +
+                                 " --min -1,0,-1 --max 1,0.5,1 --base -0.5 --voxel 0.02 --json -o " + file);
+    INFO(done.err);
+    REQUIRE(done.exitCode == 0);
+    const DistanceField field(readLevelSet(file));
+    CHECK(field.phi(Vec3d(0.5, 0.25, 0.0)) == Approx(0.0).margin(2e-3)); // half way up the hill
+    CHECK(field.phi(Vec3d(0.3, -0.5, 0.2)) == Approx(0.0).margin(2e-3)); // the bottom
+    CHECK(field.phi(Vec3d(1.04, -0.2, 0.2)) == Approx(0.04).margin(2e-3));
+    const ToolRun wrong = runTool("make heightfield " + (folder / "hills.csv") +
+                                  " --min -1,0,-1 --max 1,0.5,1 --base 0.1 --voxel 0.02 -o " + (folder / "no.vdb"));
+    CHECK(wrong.exitCode == 2);
+    CHECK(wrong.err.find("base") != std::string::npos);
+    folder.write("bad.csv", "0,0\n0,x\n");
+    const ToolRun bad = runTool("make heightfield " + (folder / "bad.csv") +
+                                " --min -1,0,-1 --max 1,0.5,1 --voxel 0.02 -o " + (folder / "no.vdb"));
+    CHECK(bad.exitCode == 3);
+    CHECK(lineCount(bad.err) == 1);
+}
+
 TEST_CASE("make takes bands, a name and half floats as mesh2ls does")
 {
     const TemporaryFolder folder;

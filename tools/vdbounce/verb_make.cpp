@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "make_arguments.h"
+#include "make_output.h"
 #include "progress_bar.h"
-#include "report.h"
 #include "signals.h"
 #include "stopwatch.h"
 
 #include "vdbounce/implicit/sample_field.h"
 #include "vdbounce/implicit/shapes.h"
-#include "vdbounce/io/grid_file.h"
 
 #include <functional>
 #include <memory>
@@ -22,24 +21,6 @@ template <class Formula> struct ShapeArguments {
     std::optional<Vec3d> min; // of a plane, which has no end
     std::optional<Vec3d> max;
 };
-
-void write(const LevelSetGrid& grid, const std::string& shape, const MakeArguments& arguments, double buildSeconds,
-           const CommonOptions& common)
-{
-    Stopwatch writing;
-    writeLevelSet(grid, arguments.output, {arguments.half, {}});
-    const LevelSetSummary summary = summarize(grid);
-    report(common,
-           {{"output", arguments.output},
-            {"shape", shape},
-            {"voxel_size", arguments.voxel},
-            {"active_voxels", summary.activeVoxels},
-            {"exterior_vx", arguments.exteriorVx()},
-            {"interior_vx", arguments.interiorVx()},
-            {"seconds", {{"build", buildSeconds}, {"write", writing.lap()}}}},
-           arguments.output + ": " + shape + " of " + grouped(summary.activeVoxels) + " voxels of " +
-               rounded(arguments.voxel) + " in " + rounded(buildSeconds) + " s");
-}
 
 template <class Formula> void run(const ShapeArguments<Formula>& arguments, const CommonOptions& common)
 {
@@ -60,7 +41,7 @@ template <class Formula> void run(const ShapeArguments<Formula>& arguments, cons
         ProgressBar progress(common, "make " + name);
         return sampleField(*field, options, progress);
     }();
-    write(grid, name, arguments.make, building.lap(), common);
+    writeMade(grid, name, arguments.make, building.lap(), common);
 }
 
 // Adds the verb of one shape; `addOwn` adds the options of its own.
@@ -159,6 +140,7 @@ void addMake(CLI::App& app, const CommonOptions& common)
     verb->footer("Example:\n  vdbounce make sphere --center 0,1,0 --radius 0.5 --voxel 0.01 -o sphere.vdb");
     addRoundShapes(*verb, common);
     addFlatShapes(*verb, common);
+    addMakeHeightfield(*verb, common);
 }
 
 } // namespace vdbounce::tool

@@ -6,6 +6,7 @@
 #include "vdbounce/contact/collider.h"
 #include "vdbounce/contact/motion.h"
 #include "vdbounce/implicit/csg_operation.h"
+#include "vdbounce/implicit/height_grid.h"
 #include "vdbounce/implicit/shapes.h"
 
 #include <optional>
@@ -22,6 +23,11 @@ struct ColliderSpec {
         std::vector<std::string> of; ///< names of colliders
         Length blend;                ///< rounds edges; in voxels: of the finest level set among them
     };
+    /// The solid under a map of heights.
+    struct Heightfield {
+        std::string file; ///< .png, .csv or .txt
+        HeightfieldOptions place;
+    };
     /// Of a collider that particles move. What is left out is that of a body of even density.
     struct Body {
         double mass = 1.0;            ///< > 0
@@ -34,6 +40,7 @@ struct ColliderSpec {
     std::string file;     ///< a level set
     std::string sequence; ///< a level set a frame, #### for the frame; interpolated in between
     std::optional<ShapeFormula> formula;
+    std::optional<Heightfield> heightfield;
     std::optional<Csg> csg;
 
     double restitution = 0.3; ///< 0 to 1

@@ -5,6 +5,7 @@
 #include "vdbounce/contact/body_mass.h"
 #include "vdbounce/contact/shape_field.h"
 #include "vdbounce/implicit/csg_field.h"
+#include "vdbounce/implicit/heightfield.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/number_text.h"
 
@@ -86,6 +87,10 @@ SceneColliders::SceneColliders(const Scene& scene) : scene_(scene)
 {
     for (const ColliderSpec& spec : scene.colliders) {
         deforming_ = deforming_ || !spec.sequence.empty();
+        if (spec.heightfield) {
+            heightfields_[spec.name] = std::make_shared<const HeightfieldField>(readHeightMap(spec.heightfield->file),
+                                                                                spec.heightfield->place);
+        }
         if (spec.file.empty()) continue;
         FieldPtr& field = fields_[spec.file];
         if (!field) field = loadField(spec.file);
@@ -109,6 +114,7 @@ Shape SceneColliders::shapeOf(const ColliderSpec& spec, int frame)
 {
     if (spec.csg) return csgOf(spec, frame);
     if (!spec.sequence.empty()) return deformingShape(spec, frame);
+    if (spec.heightfield) return heightfields_.at(spec.name);
     if (!spec.formula) return fields_.at(spec.file);
     if (const auto* plane = std::get_if<PlaneShape>(&*spec.formula)) return PlaneField(plane->point, plane->normal);
     return makeField(*spec.formula);

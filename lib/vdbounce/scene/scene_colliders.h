@@ -45,8 +45,9 @@ private:
     const ColliderSpec& specOf(const std::string& name) const;
 
     const Scene& scene_;
-    std::map<std::string, FieldPtr> fields_;               // by file
-    std::map<std::string, std::map<int, Moment>> moments_; // by sequence, the last two frames
+    std::map<std::string, FieldPtr> fields_;                                   // by file
+    std::map<std::string, std::shared_ptr<const ImplicitField>> heightfields_; // by collider
+    std::map<std::string, std::map<int, Moment>> moments_;                     // by sequence, the last two frames
     bool deforming_ = false;
 };
 

@@ -98,6 +98,18 @@ void readFormula(SceneTable& table, ColliderSpec& collider)
     }
 }
 
+ColliderSpec::Heightfield readHeightfield(SceneTable table, const std::string& sceneFile)
+{
+    for (const char* key : {"file", "min", "max"}) table.require(key);
+    ColliderSpec::Heightfield heightfield;
+    heightfield.file = resolvedPath(sceneFile, table.text("file", ""));
+    heightfield.place.min = table.vector("min", heightfield.place.min);
+    heightfield.place.max = table.vector("max", heightfield.place.max);
+    if (table.has("base")) heightfield.place.base = table.number("base", 0.0);
+    table.finish();
+    return heightfield;
+}
+
 ColliderSpec::Csg readCsg(SceneTable table)
 {
     const CsgOperation operations[] = {CsgOperation::Union, CsgOperation::Intersection, CsgOperation::Subtraction,
@@ -118,7 +130,7 @@ ColliderSpec::Csg readCsg(SceneTable table)
 // The keys that say which form a collider has.
 std::vector<const char*> formKeys()
 {
-    std::vector<const char*> keys = {"file", "sequence", "csg"};
+    std::vector<const char*> keys = {"file", "sequence", "heightfield", "csg"};
     for (const FormulaReader& formula : kFormulas) keys.push_back(formula.key);
     return keys;
 }
@@ -172,13 +184,15 @@ void readForm(SceneTable& table, const std::string& sceneFile, ColliderSpec& col
         table.fail(
             given > 1 ? *std::find_if(keys.begin(), keys.end(), [&](auto key) { return table.has(key); }) : "file",
             "is one of " + std::to_string(given) + " forms: exactly one is needed",
-            "give file, sequence, csg or a shape: plane, sphere, box, capsule, cylinder, cone, torus, ellipsoid");
+            "give file, sequence, csg or a shape: plane, sphere, box, capsule, cylinder, cone, torus, ellipsoid, "
+            "heightfield");
     }
     collider.file = resolvedPath(sceneFile, table.text("file", ""));
     collider.sequence = resolvedPath(sceneFile, table.text("sequence", ""));
     if (!collider.sequence.empty() && !hasFramePattern(collider.sequence))
         table.fail("sequence", "has no #### for the frame", "write for example \"shape.####.vdb\", or use file");
     readFormula(table, collider);
+    if (table.has("heightfield")) collider.heightfield = readHeightfield(table.table("heightfield"), sceneFile);
     if (table.has("csg")) collider.csg = readCsg(table.table("csg"));
     for (const char* key : keys) table.markKnown(key);
 }
