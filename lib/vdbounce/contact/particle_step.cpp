@@ -19,17 +19,11 @@ constexpr double kPushMargin = 1e-3;
 // trilinear interpolation can resolve.
 constexpr double kSmallestPush = 1e-6;
 
-// Steps shorter than this share of the length on which walls are told apart pass none: of a grid's the thinnest is two
-// voxels thick, and half of one where the grid lies badly.
-constexpr double kSweepFrom = 0.5;
-
 } // namespace
 
 bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength)
 {
-    if (sweep == Sweep::Never) return false;
-    if (sweep == Sweep::Auto && way <= kSweepFrom * wallLength) return false;
-    return way > clear;
+    return way > clear && sweepIsDue(sweep, way, wallLength);
 }
 
 ParticleStep::ParticleStep(MovingParticle& p, const PlacedColliders& c, const StepOptions& o, StepTally& t)
@@ -64,7 +58,7 @@ Touch ParticleStep::look()
     if (mayHaveTouchedOnTheWay()) {
         if (!swept_) ++tally.swept;
         swept_ = true;
-        const PathHit hit = sweepPath(colliders, start, candidate, particle.radius);
+        const PathHit hit = sweepPath(colliders, start, candidate, particle.radius, options.sweep);
         if (hit.hit) {
             touch.touching = true;
             touch.collider = hit.collider;

@@ -13,6 +13,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Box kEverywhere{Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
 
+// What a search along a path may miss of a level set, voxels.
+constexpr double kResolutionVx = 0.25;
+
 using FieldPtr = std::shared_ptr<const DistanceField>;
 using ImplicitPtr = std::shared_ptr<const ImplicitField>;
 
@@ -49,6 +52,12 @@ public:
     {
         const auto* implicit = std::get_if<ImplicitPtr>(&shape_);
         return implicit != nullptr ? (*implicit)->thinnestWall() : kInfinity; // the voxel limits it otherwise
+    }
+
+    double resolution() const override
+    {
+        if (const auto* implicit = std::get_if<ImplicitPtr>(&shape_)) return (*implicit)->resolution();
+        return kResolutionVx * voxelSizeOf(shape_);
     }
 
     double clearance(const Vec3d& world, double radius, double time) const override

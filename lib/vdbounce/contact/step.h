@@ -4,16 +4,10 @@
 #include "vdbounce/contact/free_flight.h"
 #include "vdbounce/contact/placed_colliders.h"
 #include "vdbounce/contact/step_tally.h"
+#include "vdbounce/contact/sweep.h"
 #include "vdbounce/particles/hit_record.h"
 
 namespace vdbounce {
-
-/// When to look for collisions along a particle's path and not only at its end.
-enum class Sweep {
-    Auto,   ///< where the step is longer than half a voxel and may have touched something on the way
-    Always, ///< where the step may have touched something on the way
-    Never,
-};
 
 /// How a particle that penetrates at the end of a step is answered: the lecture's three numerical implementations.
 enum class Scheme {

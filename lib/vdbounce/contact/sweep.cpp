@@ -10,6 +10,10 @@
 namespace vdbounce {
 namespace {
 
+// Steps shorter than this share of the length on which walls are told apart pass none: of a grid's the thinnest is two
+// voxels thick, and half of one where the grid lies badly.
+constexpr double kSweepFrom = 0.5;
+
 // How far a piece of a curved path may be from it, voxels, and how many pieces there are at most.
 constexpr double kSagittaVx = 0.05;
 constexpr double kMostPieces = 1024.0;
@@ -18,10 +22,11 @@ constexpr double kMostPieces = 1024.0;
 constexpr double kShortestStrideVx = 0.25;
 constexpr double kMostStrides = 1e5;
 
-// Pieces and strides along a path before a surface by formula, as shares of the path and of its pieces: what is thinner
-// along the path than this may be missed.
+// Before a surface by formula: how straight the pieces of a path are, and how short strides are at least, as shares of
+// it; and how many a path is worth that is shorter than what the surface resolves.
 constexpr double kSagittaShare = 1e-3;
-constexpr double kShortestStride = 1e-4;
+constexpr double kShortestStride = 1e-5;
+constexpr double kFewestStrides = 8.0;
 
 // Halvings of a bracket that is a stride long: to a ten-millionth of it.
 constexpr int kHalvings = 24;
@@ -146,7 +151,9 @@ std::optional<double> touchOf(const std::shared_ptr<const ImplicitField>& field,
         // The curved way is longer than its chord by no more than this.
         const double way = (path.at(stop) - path.at(begin)).norm() + 8.0 * sagitta;
         const double speed = (way + moved) * field->lipschitz() / (stop - begin);
-        const double shortest = kShortestStride * (stop - begin);
+        // A path that is short itself is not looked at more closely than it is worth.
+        const double finest = std::max(kShortestStride * way, std::min(way / kFewestStrides, field->resolution()));
+        const double shortest = finest * (stop - begin) / (way + moved);
         for (double t = begin;;) {
             const double clear = gap(t);
             if (clear < 0.0) return halvedDown(gap, free, t);
@@ -185,13 +192,21 @@ void describeHit(const PlacedColliders& colliders, const RelativePath& path, con
 
 } // namespace
 
-PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec3d& to, double radius)
+bool sweepIsDue(Sweep sweep, double way, double wallLength)
+{
+    if (sweep == Sweep::Never) return false;
+    return sweep == Sweep::Always || !(way <= kSweepFrom * wallLength);
+}
+
+PathHit sweepPath(const PlacedColliders& colliders, const Vec3d& from, const Vec3d& to, double radius, Sweep sweep)
 {
     PathHit result;
     result.position = to;
+    const double way = (to - from).norm();
     if (!std::isfinite((to - from).norm())) return result;
     for (std::size_t i = 0; i < colliders.size(); ++i) {
         const Placement& placement = colliders.placement(i);
+        if (!sweepIsDue(sweep, way + placement.reach, wallLengthOf(colliders[i].shape))) continue;
         if (!meetsBall(colliders.set().boundingBall(i), placement, from, to, radius)) continue;
         const RelativePath path(placement, from, to);
         // Later colliders only matter where they are met sooner.

@@ -103,6 +103,13 @@ double CsgField::thinnestWall() const
     return thinnest;
 }
 
+double CsgField::resolution() const
+{
+    double finest = kInfinity;
+    for (const auto& operand : operands_) finest = std::min(finest, operand->resolution());
+    return finest;
+}
+
 double CsgField::clearance(const Vec3d& world, double radius, double time) const
 {
     if (operation_ == CsgOperation::Complement) return operands_[0]->clearanceInside(world, radius, time);

@@ -29,6 +29,7 @@ public:
     bool exact() const override { return false; }
     Box box() const override;
     double thinnestWall() const override;
+    double resolution() const override;
     double clearance(const Vec3d& world, double radius, double time) const override;
     double clearanceInside(const Vec3d& world, double radius, double time) const override;
     double lipschitz() const override;

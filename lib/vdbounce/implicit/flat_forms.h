@@ -106,7 +106,7 @@ public:
         }
         return box;
     }
-    double thinnestWall() const { return std::min(height_, 2.0 * std::min(radius_, top_)); }
+    double thinnestWall() const { return std::min(height_, 2.0 * std::max(radius_, top_)); }
 
 private:
     using Vec2d = Eigen::Vector2d; // distance from the axis, height

@@ -38,9 +38,12 @@ public:
     /// A world box around the inside, at all times; with infinite sides where it has no end.
     virtual Box box() const = 0;
 
-    /// No wall of it is thinner than this, world units; 0 where that is not known. Steps shorter than half of it need
-    /// no search along their path.
+    /// No wall of it is thinner than this, but at edges and tips, world units; 0 where that is not known. Particles
+    /// that move much less in a step need no search along their path.
     virtual double thinnestWall() const = 0;
+
+    /// A search along a path may miss what is shorter along it than this, world units: so deep it cuts off edges.
+    virtual double resolution() const { return thinnestWall() / 256.0; }
 
     /// How far a particle can move in any direction, at that time, without phi falling below its radius; >= 0.
     virtual double clearance(const Vec3d& world, double radius, double time) const
