@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/mesh_topology.h"
 
-#include "vdbounce/build/disjoint_sets.h"
+#include "vdbounce/base/disjoint_sets.h"
 #include "vdbounce/build/mesh_edges.h"
 #include "vdbounce/build/point_welding.h"
 #include "vdbounce/build/triangle_copies.h"

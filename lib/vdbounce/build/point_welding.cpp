@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/point_welding.h"
 
-#include "vdbounce/build/disjoint_sets.h"
+#include "vdbounce/base/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>

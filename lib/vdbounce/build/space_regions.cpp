@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/space_regions.h"
 
+#include "vdbounce/base/disjoint_sets.h"
 #include "vdbounce/base/error.h"
-#include "vdbounce/build/disjoint_sets.h"
 #include "vdbounce/io/number_text.h"
 
 #include <algorithm>
