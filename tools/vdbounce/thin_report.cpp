@@ -4,17 +4,11 @@
 namespace vdbounce::tool {
 namespace {
 
-// Three voxels across give each side of a wall one of its own, and the middle one.
-constexpr double kVoxelsAcross = 3.0;
-
-// Below this part of a voxel it is an edge, of no thickness, or a wall whose thickness rounding hides.
-constexpr double kEdge = 0.02;
-
 std::string warningOf(const ThinFeatures::Kind& kind, const char* name, const char* consequence, double voxelSize)
 {
     const std::string found = counted(kind.voxels, "voxel") + " in " + name +
                               " about as thin as a voxel or thinner, the thinnest near " + vectorText(kind.place);
-    if (kind.thinnest < kEdge * voxelSize)
+    if (kind.thinnest < kEdgeVx * voxelSize)
         return found + ", an edge or too thin to tell: " + consequence + "; smaller voxels would help";
     return found + ", " + rounded(kind.thinnest) + " thick (" + rounded(kind.thinnest / voxelSize) +
            " voxels): " + consequence + "; voxels of " + rounded(kind.thinnest / kVoxelsAcross) + " would do";

@@ -10,6 +10,12 @@
 
 namespace vdbounce::tool {
 
+/// Three voxels across give each side of a wall one of its own, and the middle one.
+constexpr double kVoxelsAcross = 3.0;
+
+/// Below this part of a voxel it is an edge, of no thickness, or a wall whose thickness rounding hides.
+constexpr double kEdgeVx = 0.02;
+
 Json thinJson(const ThinFeatures::Kind& kind);
 
 /// What voxels of this size (the smallest side, world) are too large for, a sentence each for walls and gaps: how

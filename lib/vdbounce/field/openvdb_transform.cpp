@@ -20,6 +20,8 @@ LinearTransform toLinearTransform(const openvdb::math::Transform& transform)
 
 LinearTransform transformOf(const LevelSetGrid& grid) { return toLinearTransform(toOpenVdb(grid).transform()); }
 
+LinearTransform transformOf(const ScalarGrid& grid) { return toLinearTransform(toOpenVdb(grid).transform()); }
+
 openvdb::math::Transform::Ptr toOpenVdb(const LinearTransform& transform)
 {
     const Mat3d& linear = transform.indexToWorld();

@@ -33,11 +33,17 @@ void add(Kind& sum, const Kind& part)
     sum.voxels += part.voxels;
 }
 
+void add(ThinFeatures::Smallest& smallest, const ThinFeatures::Smallest& other)
+{
+    if (other.thickness > 0.0 && (smallest.thickness == 0.0 || other.thickness < smallest.thickness)) smallest = other;
+}
+
 struct Features : ThinFeatures {
     Features& operator+=(const Features& other)
     {
         add(walls, other.walls);
         add(gaps, other.gaps);
+        add(smallest, other.smallest);
         return *this;
     }
 };
@@ -106,7 +112,7 @@ public:
     {
         const float* values = leaf.buffer().data();
         for (openvdb::Index v = 0; v < Leaf::SIZE; ++v) {
-            if (std::abs(values[v]) < side_) lookAt(leaf, v, accessor, features);
+            if (std::abs(values[v]) < side_ || leaf.isValueOn(v)) lookAt(leaf, v, accessor, features);
         }
     }
 
@@ -136,9 +142,10 @@ private:
         const openvdb::Coord voxel = leaf.offsetToGlobalCoord(offset);
         if (box_.empty() || !box_.isInside(voxel)) return;
         const bool wall = cross.bend() > 0.0;
-        add(wall ? features.walls : features.gaps,
-            {1, thicknessOf(cross, wall ? 1.0 : -1.0, transform_),
-             transform_.toWorld(Vec3d(double(voxel.x()), double(voxel.y()), double(voxel.z())))});
+        const double thickness = thicknessOf(cross, wall ? 1.0 : -1.0, transform_);
+        const Vec3d place = transform_.toWorld(Vec3d(double(voxel.x()), double(voxel.y()), double(voxel.z())));
+        add(features.smallest, {thickness, wall, place});
+        if (std::abs(cross.middle) < side_) add(wall ? features.walls : features.gaps, {1, thickness, place});
     }
 
     const LinearTransform transform_;

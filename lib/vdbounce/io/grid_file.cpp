@@ -49,6 +49,7 @@ GridEntry describe(const VdbGridHeader& header)
     entry.valueType = storedType(grid);
     entry.gridClass = classText(grid);
     entry.isPoints = grid.isType<openvdb::points::PointDataGrid>();
+    entry.linear = grid.transform().isLinear();
     return entry;
 }
 
@@ -161,6 +162,11 @@ ScalarGrid readScalarGrid(const std::string& path, const std::string& gridName)
 }
 
 ScalarGrid toScalarGrid(const LevelSetGrid& grid) { return toScalarGrid(grid.holder().grid); }
+
+LevelSetGrid toLevelSetGrid(const ScalarGrid& grid, const std::string& place)
+{
+    return toLevelSetGrid(grid.holder().grid, place);
+}
 
 bool isFogVolume(const ScalarGrid& grid) { return toOpenVdb(grid).getGridClass() == openvdb::GRID_FOG_VOLUME; }
 

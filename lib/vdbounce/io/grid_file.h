@@ -29,6 +29,7 @@ struct GridEntry {
     std::string valueType; ///< OpenVDB's name of the value type, "float", "ptdataidx32", ...
     std::string gridClass; ///< "level set", "fog volume", "staggered", "unknown"
     bool isPoints = false;
+    bool linear = true; ///< its transform is an affine map, as all that we read must have
 };
 std::vector<GridEntry> listGrids(const std::string& path);
 

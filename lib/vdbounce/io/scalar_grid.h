@@ -27,6 +27,9 @@ private:
 /// The same grid, shared.
 ScalarGrid toScalarGrid(const LevelSetGrid& grid);
 
+/// The same grid, shared, if it can be one: throws InputError, naming `place`, for what readLevelSet() refuses.
+LevelSetGrid toLevelSetGrid(const ScalarGrid& grid, const std::string& place);
+
 /// Its grid class is "fog volume": density, larger inside.
 bool isFogVolume(const ScalarGrid& grid);
 
