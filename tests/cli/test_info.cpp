@@ -107,7 +107,7 @@ TEST_CASE("values that are no distances are not fit, and redistance is named")
         CHECK(info["fit"] == "no");
         CHECK_THAT(info["verdict"].get<std::string>(),
                    Catch::StartsWith("not fit to collide with") && Catch::Contains("|grad phi|"));
-        CHECK_THAT(info["faults"].back()["remedy"].get<std::string>(), Catch::StartsWith("vdbounce redistance"));
+        CHECK_THAT(info["faults"].front()["remedy"].get<std::string>(), Catch::StartsWith("vdbounce redistance"));
     }
     const Json cubic = infoOf(changed(ballGrid(), [](float v) { return v + 10.0f * v * v * v; }));
     CHECK(cubic["fit"] == "no");

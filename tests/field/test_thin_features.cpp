@@ -78,3 +78,25 @@ TEST_CASE("how thick thin walls and gaps are is told exactly, whether or not a v
         }
     }
 }
+
+TEST_CASE("the smallest feature is told up to twice the band, of balls its diameter")
+{
+    VDBOUNCE_RANDOM(random);
+    for (int i = 0; i < 10; ++i) {
+        const Vec3d normal = i < 3 ? Vec3d(Vec3d::Unit(i)) : random.direction();
+        const double offset = random.uniform(-0.1, 0.1);
+        const double thicknessVx = random.uniform(1.5, 6.0);
+        const Phi slab = [&](const Vec3d& p) { return std::abs(normal.dot(p) - offset) - 0.5 * thicknessVx * kVoxel; };
+        INFO("normal " << normal.transpose() << ", offset " << offset << ", thickness " << thicknessVx);
+        const ThinFeatures::Smallest wall = featuresOf(slab).smallest;
+        CHECK(wall.wall);
+        CHECK(wall.thickness == Approx(thicknessVx * kVoxel).epsilon(1e-3));
+        CHECK(std::abs(normal.dot(wall.place) - offset) < kVoxel);
+        const ThinFeatures::Smallest gap = featuresOf([&](const Vec3d& p) { return -slab(p); }).smallest;
+        CHECK_FALSE(gap.wall);
+        CHECK(gap.thickness == Approx(thicknessVx * kVoxel).epsilon(1e-3));
+        // Far from its middle, at the band's ends, a ball shows nothing.
+        const Vec3d centre = 0.02 * random.direction();
+        CHECK(featuresOf(sphere(0.6, centre)).smallest.thickness == 0.0);
+    }
+}

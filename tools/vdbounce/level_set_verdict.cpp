@@ -45,8 +45,8 @@ public:
             add(Fitness::Unfit, "large tiles of different values meet without a band between", kMakeAgain);
         } else {
             judgeSurface();
-            judgeBand();
             judgeDistances();
+            judgeBand();
             judgeShape();
         }
         std::stable_sort(verdict_.faults.begin(), verdict_.faults.end(), [](const Fault& a, const Fault& b) {

@@ -74,6 +74,23 @@ Cross crossAt(const Leaf& leaf, openvdb::Index offset, Accessor& accessor)
     return cross;
 }
 
+int mostBentAxis(const Cross& cross, double sign)
+{
+    int axis = 0;
+    for (int other = 1; other < 3; ++other) {
+        if (sign * cross.bend(other) > sign * cross.bend(axis)) axis = other;
+    }
+    return axis;
+}
+
+// A wall's middle is no further out than what is before and behind it. Beside values that are clamped to the band,
+// which bend, too, it is.
+bool isMiddle(const Cross& cross, double sign)
+{
+    const int axis = mostBentAxis(cross, sign);
+    return std::min(sign * cross.before[axis], sign * cross.after[axis]) >= sign * cross.middle;
+}
+
 // How far the slope away from a wall, squared, may be from a distance's for its sides to count as parallel.
 constexpr double kParallel = 0.2;
 
@@ -82,10 +99,9 @@ constexpr double kParallel = 0.2;
 // it, too. Of gaps with all signs changed.
 double thicknessOf(const Cross& cross, double sign, const LinearTransform& transform)
 {
-    int axis = 0;
+    const int axis = mostBentAxis(cross, sign);
     Vec3d slope; // away from the wall
     for (int other = 0; other < 3; ++other) {
-        if (sign * cross.bend(other) > sign * cross.bend(axis)) axis = other;
         slope[other] =
             std::max(std::abs(cross.before[other] - cross.middle), std::abs(cross.after[other] - cross.middle));
     }
@@ -142,9 +158,10 @@ private:
         const openvdb::Coord voxel = leaf.offsetToGlobalCoord(offset);
         if (box_.empty() || !box_.isInside(voxel)) return;
         const bool wall = cross.bend() > 0.0;
-        const double thickness = thicknessOf(cross, wall ? 1.0 : -1.0, transform_);
+        const double sign = wall ? 1.0 : -1.0;
+        const double thickness = thicknessOf(cross, sign, transform_);
         const Vec3d place = transform_.toWorld(Vec3d(double(voxel.x()), double(voxel.y()), double(voxel.z())));
-        add(features.smallest, {thickness, wall, place});
+        if (isMiddle(cross, sign)) add(features.smallest, {thickness, wall, place});
         if (std::abs(cross.middle) < side_) add(wall ? features.walls : features.gaps, {1, thickness, place});
     }
 
