@@ -103,8 +103,7 @@ std::string distancesText(const EikonalResidual& eikonal)
     if (eikonal.voxels == 0) return "none that could be checked: no voxel and its neighbours are in the band";
     std::string text = "|grad phi| is off 1 by " + rounded(eikonal.mean) + " on average, at most by " +
                        rounded(eikonal.largest) + " at " + vectorText(eikonal.where);
-    if (eikonal.offVoxels > 0)
-        text += "; by a tenth or more in " + rounded(100.0 * eikonal.offShare()) + " of 100 voxels";
+    if (eikonal.offVoxels > 0) text += "; by a tenth or more in " + percentText(eikonal.offShare()) + " of the voxels";
     return text;
 }
 

@@ -4,7 +4,8 @@
 #include "thin_report.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
+#include <cstdio>
 
 namespace vdbounce::tool {
 namespace {
@@ -100,8 +101,8 @@ private:
         }
         if (eikonal.offShare() > kOffShare)
             add(Fitness::WithReservations,
-                "its values are off from distances by a tenth or more in " + rounded(100.0 * eikonal.offShare()) +
-                    " of 100 voxels",
+                "its values are off from distances by a tenth or more in " + percentText(eikonal.offShare()) +
+                    " of its voxels",
                 redistanceCommand(survey_.path));
         // Where its box cuts it off, phi jumps to the background.
         if (!survey_.measures->clipped && survey_.measures->steepest > kSteepest)
@@ -133,7 +134,7 @@ private:
         if (!(share > kThinShare)) return;
         const bool known = kind.thinnest > kEdgeVx * voxel;
         add(Fitness::WithReservations,
-            rounded(100.0 * std::min(share, 1.0)) + " of 100 parts of its surface are " + name +
+            percentText(std::min(share, 1.0)) + " of its surface are " + name +
                 " about as thin as a voxel or thinner, and " + consequence,
             "make it again with smaller voxels, --voxel " +
                 rounded(known ? kind.thinnest / kVoxelsAcross : 0.5 * voxel) + (known ? "" : " or less"));
@@ -175,6 +176,13 @@ void addVerdict(const Verdict& verdict, Json& json)
     for (const Fault& fault : verdict.faults)
         json["faults"].push_back({{"what", fault.what}, {"remedy", fault.remedy}});
     json["verdict"] = verdict.sentence();
+}
+
+std::string percentText(double share)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, share < 0.995 ? "%.2g%%" : "%.0f%%", 100.0 * share);
+    return text;
 }
 
 std::string redistanceCommand(const std::string& path, const std::string& options)

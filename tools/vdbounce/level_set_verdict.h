@@ -38,6 +38,9 @@ Verdict judge(const LevelSetSurvey& survey);
 /// {verdict, fit ("yes", "with reservations", "no"), faults: [{what, remedy}]} are added to `json`.
 void addVerdict(const Verdict& verdict, Json& json);
 
+/// "12%", two digits, of a share between 0 and 1.
+std::string percentText(double share);
+
 /// The verb that restores distances in the file `path`, with further options.
 std::string redistanceCommand(const std::string& path, const std::string& options = "");
 
