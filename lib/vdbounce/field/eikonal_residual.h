@@ -41,7 +41,7 @@ struct EikonalResidual {
 /// What remains where values are exact: 1 / (3 r^2) at most r voxels from a centre of curvature, and up to 0.3 within a
 /// voxel or two of sharp edges.
 ///
-/// Same bits for any number of threads. Cost: some 5 nanoseconds a voxel of the field's blocks.
+/// Same bits for any number of threads. Cost: some 8 nanoseconds a voxel of the field's blocks.
 EikonalResidual eikonalResidual(const DistanceField& field);
 
 } // namespace vdbounce
