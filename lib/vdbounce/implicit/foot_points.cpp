@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/implicit/foot_points.h"
+
+#include "vdbounce/base/parallel.h"
+#include "vdbounce/implicit/foot_exchange.h"
+#include "vdbounce/implicit/foot_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace vdbounce {
+namespace {
+
+constexpr std::size_t kLeavesPerTask = 16;
+
+// Patches are as wide as a cell, so that the point of the right one is at most this much farther than the closest
+// point of the surface; units of the longest side.
+constexpr float kPatchReach = 1.0f;
+
+bool comesBefore(const Vec3i& a, const Vec3i& b)
+{
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+// Origins of all leaves with a voxel within `reach` of some patch, in lexicographic order.
+std::vector<Vec3i> leavesAround(const FittedSurface& surface, const VoxelMetric& metric, float reach)
+{
+    // As many voxels along each axis as a way of that length can take.
+    const Vec3d voxels = double(reach) * metric.toIndex.rowwise().norm();
+    std::vector<std::vector<Vec3i>> around(surface.leaves.size());
+    forEachIndex(surface.leaves.size(), kLeavesPerTask, [&](std::size_t i) {
+        Box boxes[8]; // of the eighths of the leaf
+        for (std::size_t p = surface.leaves[i].begin; p < surface.leaves[i].end; ++p) {
+            const SurfacePatch& patch = surface.patches[p];
+            const Vec3d cell(patch.cell[0], patch.cell[1], patch.cell[2]);
+            const Vec3d at = cell + Vec3d(0.5 + patch.at[0], 0.5 + patch.at[1], 0.5 + patch.at[2]);
+            boxes[(patch.cell[0] >> 2 & 1) * 4 + (patch.cell[1] >> 2 & 1) * 2 + (patch.cell[2] >> 2 & 1)].add(at);
+        }
+        for (const Box& box : boxes) {
+            if (box.empty()) continue;
+            Vec3i low;
+            Vec3i high;
+            for (int a = 0; a < 3; ++a) {
+                low[a] = int(std::ceil(box.min[a] - voxels[a])) >> 3;
+                high[a] = int(std::floor(box.max[a] + voxels[a])) >> 3;
+            }
+            for (int x = low.x(); x <= high.x(); ++x) {
+                for (int y = low.y(); y <= high.y(); ++y) {
+                    for (int z = low.z(); z <= high.z(); ++z) around[i].push_back(8 * Vec3i(x, y, z));
+                }
+            }
+        }
+        std::sort(around[i].begin(), around[i].end(), comesBefore);
+        around[i].erase(std::unique(around[i].begin(), around[i].end()), around[i].end());
+    });
+    std::vector<Vec3i> all;
+    for (const auto& some : around) all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end(), comesBefore);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+// Each voxel at a corner of a patch's cell takes the nearest of its patches' points.
+void seed(const FittedSurface& surface, const FittedSurface::Leaf& patches, const VoxelMetric& metric, FootLeaf& leaf)
+{
+    for (std::size_t p = patches.begin; p < patches.end; ++p) {
+        const SurfacePatch& patch = surface.patches[p];
+        for (int corner = 0; corner < 8; ++corner) {
+            const int offset[3] = {corner >> 2, corner >> 1 & 1, corner & 1};
+            int at[3];
+            float way[3];
+            for (int a = 0; a < 3; ++a) {
+                at[a] = patch.cell[a] - leaf.origin[a] + offset[a];
+                way[a] = patch.at[a] + 0.5f - float(offset[a]);
+            }
+            if (at[0] > 7 || at[1] > 7 || at[2] > 7) continue; // the leaf beside gets it through the face
+            const int v = 64 * at[0] + 8 * at[1] + at[2];
+            const float squared = metric.squared(way);
+            if (!(squared < leaf.squared[v])) continue;
+            for (int a = 0; a < 3; ++a) leaf.way[a][v] = way[a];
+            leaf.squared[v] = squared;
+            leaf.patch[v] = std::int32_t(p);
+        }
+    }
+}
+
+FootLeaves makeLeaves(const FittedSurface& surface, const VoxelMetric& metric, float reach)
+{
+    const std::vector<Vec3i> origins = leavesAround(surface, metric, reach);
+    FootLeaves leaves(origins.size());
+    forEachIndex(origins.size(), kLeavesPerTask, [&](std::size_t i) {
+        auto leaf = std::make_unique<FootLeaf>();
+        leaf->origin = origins[i];
+        const float limit = reach * reach;
+        std::fill(std::begin(leaf->squared), std::end(leaf->squared), limit);
+        std::fill(std::begin(leaf->patch), std::end(leaf->patch), FootLeaf::kNone);
+        for (auto& way : leaf->way) std::fill(std::begin(way), std::end(way), 0.0f);
+        for (int face = 0; face < 6; ++face) {
+            Vec3i beside = origins[i];
+            beside[face / 2] += face % 2 == 0 ? -8 : 8;
+            const auto found = std::lower_bound(origins.begin(), origins.end(), beside, comesBefore);
+            const bool there = found != origins.end() && *found == beside;
+            leaf->neighbours[std::size_t(face)] = there ? std::int32_t(found - origins.begin()) : -1;
+        }
+        const auto own =
+            std::lower_bound(surface.leaves.begin(), surface.leaves.end(), origins[i],
+                             [](const FittedSurface::Leaf& a, const Vec3i& b) { return comesBefore(a.origin, b); });
+        if (own != surface.leaves.end() && own->origin == origins[i]) seed(surface, *own, metric, *leaf);
+        leaves[i] = std::move(leaf);
+    });
+    return leaves;
+}
+
+// Hands points on until nothing changes, leaf by leaf in two colours. Leaves beside each other's faces have different
+// ones, so that no leaf is read while it changes. `use(leaf, exchange result)` is called for each that did change.
+template <class Visit> void handOn(FootLeaves& leaves, Progress& progress, const Visit& visit)
+{
+    std::vector<std::size_t> ofColour[2];
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+        ofColour[(leaves[i]->origin.x() + leaves[i]->origin.y() + leaves[i]->origin.z()) >> 3 & 1].push_back(i);
+    std::vector<int> changedAt(leaves.size(), 0);
+    std::vector<int> visitedAt(leaves.size(), -1);
+    for (int round = 0, quiet = 0; quiet < 2; ++round) {
+        const std::vector<std::size_t>& mine = ofColour[round & 1];
+        std::vector<std::uint8_t> changed(blockCount(mine.size(), kLeavesPerTask), 0);
+        forEachBlock(mine.size(), kLeavesPerTask, [&](std::size_t block, IndexRange range) {
+            throwIfStopped(progress);
+            for (std::size_t k = range.begin; k < range.end; ++k) {
+                const std::size_t i = mine[k];
+                bool due = visitedAt[i] < 0;
+                for (const std::int32_t n : leaves[i]->neighbours)
+                    due = due || (n >= 0 && changedAt[std::size_t(n)] > visitedAt[i]);
+                if (!due) continue;
+                visitedAt[i] = round;
+                if (!visit(i)) continue;
+                changedAt[i] = round + 1;
+                changed[block] = 1;
+            }
+        });
+        const bool any = std::find(changed.begin(), changed.end(), 1) != changed.end();
+        quiet = any || round == 0 ? 0 : quiet + 1;
+    }
+}
+
+} // namespace
+
+FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress)
+{
+    FootLeaves leaves = makeLeaves(surface, metric, reach + kPatchReach);
+    handOn(leaves, progress,
+           [&](std::size_t i) { return exchangeFeet(leaves, i, metric, Margin::ofPoints(), nullptr); });
+    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
+        for (int v = 0; v < FootLeaf::kVoxels; ++v) {
+            if (leaves[i]->patch[v] != FootLeaf::kNone) refineFoot(surface, metric, *leaves[i], v);
+        }
+    });
+    handOn(leaves, progress, [&](std::size_t i) {
+        VoxelSet changed{};
+        if (!exchangeFeet(leaves, i, metric, Margin::ofRefined(), &changed)) return false;
+        for (int v = 0; v < FootLeaf::kVoxels; ++v) {
+            if ((changed[std::size_t(v >> 6)] >> (v & 63) & 1) != 0) refineFoot(surface, metric, *leaves[i], v);
+        }
+        return true;
+    });
+    return leaves;
+}
+
+} // namespace vdbounce

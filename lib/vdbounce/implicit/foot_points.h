@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/base/progress.h"
+#include "vdbounce/implicit/surface_fit.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace vdbounce {
+
+/// For each voxel of an 8^3 leaf (z fastest) the way to a point of the surface.
+struct FootLeaf {
+    static constexpr int kVoxels = 512;
+    static constexpr std::int32_t kNone = -1;
+
+    Vec3i origin;                            ///< the leaf's first voxel
+    std::array<std::int32_t, 6> neighbours;  ///< leaves beside the faces, -x, +x, -y, +y, -z, +z; -1: none
+    alignas(64) float way[3][kVoxels];       ///< to the point, voxels (index space)
+    alignas(64) float squared[kVoxels];      ///< its length squared, in units of VoxelMetric
+    alignas(64) std::int32_t patch[kVoxels]; ///< the patch that the point is on; kNone where none is within reach
+
+    Vec3i voxel(int v) const { return origin + Vec3i(v >> 6, v >> 3 & 7, v & 7); }
+};
+
+/// The leaves around a surface, in lexicographic order.
+using FootLeaves = std::vector<std::unique_ptr<FootLeaf>>;
+
+/// The closest points of the surface for all voxels closer than `reach` (units of VoxelMetric). Where the surface is
+/// cut off, what is beside its rim has none.
+///
+/// Method: each voxel beside a patch starts from that patch's point; points are handed from voxel to voxel, in sweeps
+/// within leaves and from leaf to leaf (a vector distance transform, Danielsson 1980), so that each finds the nearest
+/// or nearly so. Then each voxel finds the closest point on its patch, by Newton's method on the cubic or exactly on
+/// the triangles. Where a neighbour has found a closer one, it is taken over, with its patch, and improved again.
+/// Leaves are swept in two colours like a chess board's, so that the result does not depend on threads.
+FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress);
+
+} // namespace vdbounce

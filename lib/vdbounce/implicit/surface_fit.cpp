@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/implicit/surface_fit.h"
+
+#include "vdbounce/base/parallel.h"
+
+#include <algorithm>
+
+namespace vdbounce {
+namespace {
+
+constexpr std::size_t kLeavesPerTask = 16;
+
+} // namespace
+
+FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress)
+{
+    const std::vector<Vec3i> origins = samples.candidateLeaves();
+    std::vector<LeafPatches> found(origins.size());
+    forEachBlock(origins.size(), kLeavesPerTask, [&](std::size_t, IndexRange range) {
+        throwIfStopped(progress);
+        SampleBlock block;
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            samples.load(origins[i], block);
+            fitPatches(block, origins[i], metric, found[i]);
+        }
+    });
+    FittedSurface surface;
+    std::vector<std::size_t> firstTriangle;
+    std::vector<std::size_t> source;
+    std::size_t patches = 0;
+    std::size_t triangles = 0;
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (found[i].patches.empty()) continue;
+        surface.leaves.push_back({origins[i], patches, patches + found[i].patches.size()});
+        source.push_back(i);
+        firstTriangle.push_back(triangles);
+        patches += found[i].patches.size();
+        triangles += found[i].triangles.size();
+    }
+    surface.patches.resize(patches);
+    surface.triangles.resize(triangles);
+    forEachIndex(source.size(), kLeavesPerTask, [&](std::size_t i) {
+        LeafPatches& from = found[source[i]];
+        for (SurfacePatch& patch : from.patches) patch.firstTriangle += std::uint32_t(firstTriangle[i]);
+        std::copy(from.patches.begin(), from.patches.end(),
+                  surface.patches.begin() + std::ptrdiff_t(surface.leaves[i].begin));
+        std::copy(from.triangles.begin(), from.triangles.end(),
+                  surface.triangles.begin() + std::ptrdiff_t(firstTriangle[i]));
+        from = LeafPatches();
+    });
+    return surface;
+}
+
+} // namespace vdbounce

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/base/progress.h"
+#include "vdbounce/implicit/implicit_samples.h"
+#include "vdbounce/implicit/surface_patch.h"
+
+#include <vector>
+
+namespace vdbounce {
+
+/// The whole surface of an implicit function, cell by cell.
+struct FittedSurface {
+    /// Patches of the cells whose lowest corner lies in the leaf at `origin` (voxel coordinates).
+    struct Leaf {
+        Vec3i origin;
+        std::size_t begin;
+        std::size_t end;
+    };
+    std::vector<SurfacePatch> patches;
+    std::vector<PatchTriangle> triangles;
+    std::vector<Leaf> leaves; ///< in lexicographic order, none without patches
+};
+
+FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress);
+
+} // namespace vdbounce
