@@ -74,6 +74,7 @@ int run(int argc, char** argv)
                "an example of each.");
     addMesh2ls(app, common);
     addMake(app, common);
+    addCsg(app, common);
     addInfo(app, common);
     addSample(app, common);
     addEmit(app, common);
