@@ -4,9 +4,9 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/implicit/grid_csg_complement.h"
+#include "vdbounce/implicit/grid_csg_distance.h"
 #include "vdbounce/implicit/grid_csg_resample.h"
 #include "vdbounce/implicit/grid_csg_trees.h"
-#include "vdbounce/implicit/redistance.h"
 #include "vdbounce/io/number_text.h"
 
 #include <Eigen/LU>
@@ -66,7 +66,12 @@ FloatGrid::ConstPtr onVoxelsOf(const FloatGrid& like, const FloatGrid::ConstPtr&
     const LinearTransform onto = toLinearTransform(like.transform());
     const bool endless = endlessBox(*grid).has_value();
     const FloatGrid::ConstPtr ended = endless ? complementOf(*grid, progress) : grid;
-    FloatGrid::Ptr result = resampled(toLevelSetGrid(ended, called(*grid)), onto, progress);
+    const CsgBand band = csgBandOf(*ended);
+    // Where voxels beyond the band have a part in what is looked up, it is no distance.
+    const auto diagonal = float(toLinearTransform(grid->transform()).voxelDiagonal());
+    const CsgBand looked{band.exterior + diagonal, band.interior + diagonal};
+    const FloatGrid::ConstPtr wide = widened(ended, looked, progress);
+    FloatGrid::Ptr result = resampled(toLevelSetGrid(wide, called(*grid)), onto, band, progress);
     return endless ? complementOf(*result, progress) : result;
 }
 
@@ -108,6 +113,22 @@ std::optional<CoordBBox> reach(Operands& of, CsgOperation operation, const Progr
     return all;
 }
 
+// Both with so much of a band that a blend leaves as much as there is without.
+void widenForBlend(Operands& of, CsgOperation operation, float blend, std::vector<std::string>& notes,
+                   Progress& progress)
+{
+    if (blend == 0.0f) return;
+    const CsgBand kept = CsgRule(operation, csgBandOf(*of.a), csgBandOf(*of.b), 0.0f).band();
+    const float lost = kBandLostToBlend * blend;
+    const CsgBand needed = operation == CsgOperation::Union ? CsgBand{kept.exterior + lost, kept.interior}
+                                                            : CsgBand{kept.exterior, kept.interior + lost};
+    const bool turned = operation == CsgOperation::Subtraction;
+    const FloatGrid::ConstPtr a = widened(of.a, needed, progress);
+    const FloatGrid::ConstPtr b = widened(of.b, turned ? CsgBand{needed.interior, needed.exterior} : needed, progress);
+    if (a != of.a || b != of.b) notes.push_back("widened: the bands, by redistancing, for the blend");
+    of = {a, b};
+}
+
 void requireBand(const CsgRule& rule, double voxel)
 {
     const double left = std::min(double(rule.high), -double(rule.low));
@@ -119,16 +140,18 @@ void requireBand(const CsgRule& rule, double voxel)
                      "widen the grids with 'vdbounce redistance --band', or blend less");
 }
 
-void noteBands(const CsgRule& rule, const CsgBand& a, const CsgBand& b, double voxel, std::vector<std::string>& notes)
+std::string bandText(const CsgBand& band, double voxel)
 {
-    const CsgBand band = rule.band();
-    const auto text = [&](const CsgBand& of) {
-        const std::string inside = std::isinf(of.interior) ? "all" : shortText(double(of.interior) / voxel) + "vx";
-        return shortText(double(of.exterior) / voxel) + "vx outside, " + inside + " inside";
-    };
-    const bool same = a.exterior == b.exterior && (a.interior == b.interior || std::isinf(a.interior + b.interior));
-    if (!same || rule.blend > 0.0f)
-        notes.push_back("bands of " + text(a) + " and " + text(b) + " make one of " + text(band));
+    const std::string inside = std::isinf(band.interior) ? "all" : shortText(double(band.interior) / voxel) + "vx";
+    return shortText(double(band.exterior) / voxel) + "vx outside, " + inside + " inside";
+}
+
+void noteBands(CsgOperation operation, const CsgBand& a, const CsgBand& b, double voxel,
+               std::vector<std::string>& notes)
+{
+    if (a.exterior == b.exterior && (a.interior == b.interior || std::isinf(a.interior + b.interior))) return;
+    notes.push_back("bands of " + bandText(a, voxel) + " and " + bandText(b, voxel) + " make one of " +
+                    bandText(CsgRule(operation, a, b, 0.0f).band(), voxel));
 }
 
 bool holdsNothing(const FloatGrid& grid) { return grid.tree().root().empty(); }
@@ -137,15 +160,11 @@ LevelSetGrid finished(FloatGrid::Ptr grid, const GridCsgOptions& options, const 
 {
     const std::string called = options.name.empty() ? name : options.name;
     grid->setName(called);
-    LevelSetGrid result = toLevelSetGrid(grid, called);
-    if (!options.redistance || holdsNothing(*grid)) return result;
-    const auto ends = endlessBox(*grid);
-    // The side of a box that only stands for what goes on beyond is no surface.
-    if (ends) result = toLevelSetGrid(complementOf(*grid, progress), called);
-    RedistanceOptions redistancing;
-    redistancing.name = called;
-    result = redistance(toScalarGrid(result), redistancing, progress);
-    return ends ? toLevelSetGrid(complementOf(toOpenVdb(result), progress), called) : result;
+    if (options.redistance) {
+        grid = redistanced(*grid, csgBandOf(*grid), progress);
+        grid->setName(called);
+    }
+    return toLevelSetGrid(grid, called);
 }
 
 } // namespace
@@ -161,13 +180,13 @@ GridCsg csg(CsgOperation operation, const LevelSetGrid& first, const LevelSetGri
     GridCsg result;
     Operands operands{first.holder().grid, second.holder().grid};
     align(operands, options, result.notes, progress);
-    const std::optional<CoordBBox> ends = reach(operands, operation, progress);
     const double voxel = longestSide(*operands.a);
-    const CsgBand bandA = csgBandOf(*operands.a);
-    const CsgBand bandB = csgBandOf(*operands.b);
-    const CsgRule rule(operation, bandA, bandB, float(options.blend.world(voxel)));
+    const auto blend = float(options.blend.world(voxel));
+    noteBands(operation, csgBandOf(*operands.a), csgBandOf(*operands.b), voxel, result.notes);
+    widenForBlend(operands, operation, blend, result.notes, progress);
+    const std::optional<CoordBBox> ends = reach(operands, operation, progress);
+    const CsgRule rule(operation, csgBandOf(*operands.a), csgBandOf(*operands.b), blend);
     requireBand(rule, voxel);
-    noteBands(rule, bandA, bandB, voxel, result.notes);
     auto grid = levelSetLike(*operands.a, combineTrees(rule, operands.a->tree(), operands.b->tree(), progress));
     setEndlessBox(*grid, ends);
     if (holdsNothing(*grid)) result.notes.push_back("the result is empty");

@@ -7,7 +7,6 @@
 #include "vdbounce/field/sample_points.h"
 #include "vdbounce/implicit/grid_csg_complement.h"
 #include "vdbounce/implicit/grid_csg_near_leaves.h"
-#include "vdbounce/implicit/grid_csg_trees.h"
 
 #include <openvdb/tools/Prune.h>
 
@@ -198,13 +197,14 @@ openvdb::CoordBBox mapped(const openvdb::CoordBBox& box, const LinearTransform& 
 
 } // namespace
 
-FloatGrid::Ptr resampled(const LevelSetGrid& handle, const LinearTransform& onto, Progress& progress)
+FloatGrid::Ptr resampled(const LevelSetGrid& handle, const LinearTransform& onto, const CsgBand& band,
+                         Progress& progress)
 {
     const FloatGrid& source = toOpenVdb(handle);
     const DistanceField field(handle);
-    Resampling resampling(field, onto, csgBandOf(source), progress);
+    Resampling resampling(field, onto, band, progress);
     const openvdb::CoordBBox box = paddedBox(source);
-    auto tree = box.empty() ? std::make_shared<openvdb::FloatTree>(source.background())
+    auto tree = box.empty() ? std::make_shared<openvdb::FloatTree>(band.exterior)
                             : resampling.tree(mapped(box, field.transform(), onto));
     auto result = levelSetLike(source, std::move(tree));
     result->setTransform(toOpenVdb(onto));
