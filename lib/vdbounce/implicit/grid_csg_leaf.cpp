@@ -13,26 +13,12 @@ constexpr int kWordVoxels = 64;
 constexpr int kVoxels = kWords * kWordVoxels;
 static_assert(kVoxels == int(CsgLeaf::SIZE));
 
-struct Extent {
-    float least;
-    float greatest;
-};
-
-// Of arrays of kVoxels. Several at a time, which needs no more than that the order makes no difference.
-Extent extentOf(const float* values)
+// Of kVoxels values. Without a way out in the middle, so that many are compared at once.
+bool allWithin(const float* values, float least, float greatest)
 {
-    constexpr int kLanes = 16;
-    float least[kLanes];
-    float greatest[kLanes];
-    std::copy_n(values, kLanes, least);
-    std::copy_n(values, kLanes, greatest);
-    for (int i = kLanes; i < kVoxels; i += kLanes) {
-        for (int lane = 0; lane < kLanes; ++lane) {
-            least[lane] = std::min(least[lane], values[i + lane]);
-            greatest[lane] = std::max(greatest[lane], values[i + lane]);
-        }
-    }
-    return {*std::min_element(least, least + kLanes), *std::max_element(greatest, greatest + kLanes)};
+    std::int32_t beyond = 0;
+    for (int i = 0; i < kVoxels; ++i) beyond |= std::int32_t(values[i] < least) | std::int32_t(values[i] > greatest);
+    return beyond == 0;
 }
 
 std::unique_ptr<CsgLeaf> emptyLeaf(const openvdb::Coord& origin)
@@ -82,10 +68,7 @@ template <bool Blended> Word combineRow(const CsgRule& rule, const Row& a, const
 CsgMade<CsgLeaf> tileIfUniform(std::unique_ptr<CsgLeaf> leaf)
 {
     const float* values = leaf->buffer().data();
-    if (leaf->getValueMask().isOff()) {
-        const Extent extent = extentOf(values);
-        if (extent.least == extent.greatest) return {nullptr, extent.least, false};
-    }
+    if (leaf->getValueMask().isOff() && allWithin(values, values[0], values[0])) return {nullptr, values[0], false};
     return {std::move(leaf), 0.0f, false};
 }
 
@@ -116,10 +99,9 @@ CsgMade<CsgLeaf> combineVoxels(const CsgRule& rule, const CsgPiece<CsgLeaf>& a, 
 std::unique_ptr<CsgLeaf> copyWithin(const CsgBand& band, const CsgLeaf& source, float sign)
 {
     const float* values = source.buffer().data();
-    const Extent extent = extentOf(values);
-    const float least = sign > 0.0f ? extent.least : -extent.greatest;
-    const float greatest = sign > 0.0f ? extent.greatest : -extent.least;
-    if (least < -band.interior || greatest > band.exterior) return nullptr;
+    const bool within = sign > 0.0f ? allWithin(values, -band.interior, band.exterior)
+                                    : allWithin(values, -band.exterior, band.interior);
+    if (!within) return nullptr;
     auto leaf = emptyLeaf(source.origin());
     float* out = leaf->buffer().data();
     if (sign > 0.0f) {

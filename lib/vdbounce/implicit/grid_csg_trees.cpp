@@ -80,22 +80,36 @@ private:
         return combineTiles(rule_, entryOf(a, n), entryOf(b, n));
     }
 
-    // Combines the entries that are tiles in both into `node`, which is filled with `filled`; returns the others.
+    // Combines the entries that are tiles in both into `node`, which is filled with `filled`; returns the others. Most
+    // tiles are as the one before.
     template <class Node>
     std::vector<Index> combineEntries(const CsgPiece<Node>& a, const CsgPiece<Node>& b, float filled, Node& node) const
     {
+        using Child = typename Node::ChildNodeType;
         std::vector<Index> withNodes;
+        CsgPiece<Child> lastA;
+        CsgPiece<Child> lastB;
+        CsgMade<Child> tile = combineTiles(rule_, lastA, lastB);
         for (Index n = 0; n < Node::NUM_VALUES; ++n) {
-            const auto entryA = entryOf(a, n);
-            const auto entryB = entryOf(b, n);
+            const CsgPiece<Child> entryA = entryOf(a, n);
+            const CsgPiece<Child> entryB = entryOf(b, n);
             if (entryA.node != nullptr || entryB.node != nullptr) {
                 withNodes.push_back(n);
                 continue;
             }
-            const auto tile = combineTiles(rule_, entryA, entryB);
+            if (!sameTile(entryA, lastA) || !sameTile(entryB, lastB)) {
+                tile = combineTiles(rule_, entryA, entryB);
+                lastA = entryA;
+                lastB = entryB;
+            }
             if (tile.value != filled || tile.active) node.addTile(n, tile.value, tile.active);
         }
         return withNodes;
+    }
+
+    template <class Child> static bool sameTile(const CsgPiece<Child>& a, const CsgPiece<Child>& b)
+    {
+        return a.value == b.value && a.active == b.active;
     }
 
     template <class Node> static CsgMade<Node> tileIfUniform(std::unique_ptr<Node> node)
