@@ -5,6 +5,7 @@
 
 #include <bitset>
 #include <map>
+#include <tuple>
 
 namespace vdbounce {
 
