@@ -75,6 +75,7 @@ int run(int argc, char** argv)
     addMesh2ls(app, common);
     addMake(app, common);
     addCsg(app, common);
+    addBlobs(app, common);
     addInfo(app, common);
     addSample(app, common);
     addEmit(app, common);

@@ -20,6 +20,7 @@ void addMesh2ls(CLI::App& app, const CommonOptions& common);
 void addMake(CLI::App& app, const CommonOptions& common);
 void addMakeHeightfield(CLI::App& make, const CommonOptions& common); // a shape of make
 void addCsg(CLI::App& app, const CommonOptions& common);
+void addBlobs(CLI::App& app, const CommonOptions& common);
 void addInfo(CLI::App& app, const CommonOptions& common);
 void addSample(CLI::App& app, const CommonOptions& common);
 void addEmit(CLI::App& app, const CommonOptions& common);
