@@ -2,6 +2,7 @@
 #include "support/random.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/field/vector_lookup.h"
 #include "vdbounce/implicit/blobs.h"
 #include "vdbounce/io/openvdb_grid.h"
 
@@ -180,6 +181,26 @@ TEST_CASE("unions of spheres have the same bits for any number of threads and an
         std::vector<std::size_t> backwards(particles.size());
         for (std::size_t i = 0; i < backwards.size(); ++i) backwards[i] = backwards.size() - 1 - i;
         CHECK(sameGrids(all, blobs(reordered(particles, backwards), spheres())));
+    }
+}
+
+TEST_CASE("spheres and sums of kernels have the same bits on any processor")
+{
+    VDBOUNCE_RANDOM(random);
+    for (double largest : {2.0, 24.0}) {
+        const Particles particles = randomSpheres(random, 50, 25.0, 2.0, largest);
+        for (BlobKernel kernel : {BlobKernel::Sphere, BlobKernel::Gaussian, BlobKernel::Compact}) {
+            BlobOptions options = spheres();
+            options.kernel = kernel;
+            const LevelSetGrid best = blobs(particles, options);
+            for (const std::string& target : vectorTargets()) {
+                INFO(target);
+                chooseVectorTarget(target);
+                const LevelSetGrid other = blobs(particles, options);
+                chooseVectorTarget("");
+                CHECK(sameGrids(best, other));
+            }
+        }
     }
 }
 
