@@ -27,7 +27,7 @@ struct BlobOptions {
     /// Of all particles, > 0, where they have none of their own.
     std::optional<Length> radius;
 
-    double halfWidthVx = 3.0; ///< of the band on both sides, voxels, >= 1 (>= 1.5 where the surface is redistanced)
+    double halfWidthVx = 3.0; ///< of the band on both sides, voxels, >= 1
     std::string gridName = "surface";
 
     /// What a particle adds to F at a voxel may be left out where it is less than this part of t, > 0 and < 1: a
