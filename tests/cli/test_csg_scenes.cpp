@@ -48,10 +48,12 @@ TEST_CASE("a scene's shapes by formula stop what falls on them")
         {"torus = { center = [0,0,0], axis = [1,0,0], major = 0.5, minor = 0.2 }", 0.7},
         {"ellipsoid = { center = [0,-0.5,0], radii = [1,0.5,1] }", 0.0},
         {"heightfield = { file = \"map.txt\", min = [-1,0.3,-1], max = [1,1,1] }", 0.3},
+        {"blobs = { file = \"goo.csv\", voxel = 0.05, kernel = \"sphere\", band = \"5vx\" }", 0.0},
         {"plane = { point = [0,0.2,0], normal = [0,1,0] }", 0.2}};
     for (const auto& [shape, top] : shapes) {
         const ShapeScene scene(std::string("[[collider]]\nrestitution = 0\n") + shape);
         scene.write("map.txt", "0 0 0\n0 0 0\n");
+        scene.write("goo.csv", "x,y,z,radius\n0,-0.5,0,0.5\n");
         const ToolRun done = scene.run();
         INFO(shape << ": " << done.err);
         REQUIRE(done.exitCode == 0);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_blobs.h"
+#include "bench/bench_csg.h"
 #include "bench/bench_shapes.h"
 #include "bench_report.h"
 #include "progress_bar.h"
@@ -14,6 +16,8 @@ void runBenchMake(const bench::MakeBenchOptions& options, const CommonOptions& c
     {
         ProgressBar progress(common, "bench make");
         append(cases, bench::benchShapes(options, progress));
+        append(cases, bench::benchCsg(options, progress));
+        append(cases, bench::benchBlobs(options, progress));
     }
     reportCases(common, cases);
 }

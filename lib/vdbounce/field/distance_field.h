@@ -86,10 +86,6 @@ public:
     /// The width of the band inside, world units: phi is its negative where the surface is farther.
     double interior() const { return interior_; }
 
-    /// The depth that the voxels beyond the band inside tell, the least of them; infinite where all that are inside
-    /// belong to the band.
-    double interior() const { return interior_; }
-
     /// The most that a voxel is off for the storage that was asked for, measured over all of them; 0 for
     /// Storage::Float. phi in the box is off by no more, with Lookup::Cubic by up to 2 times as much. A gradient's
     /// component along a grid axis is off by no more than this over the voxel's side there, with Normal::Analytic by up

@@ -5,6 +5,7 @@
 #include "vdbounce/base/vector.h"
 #include "vdbounce/contact/collider.h"
 #include "vdbounce/contact/motion.h"
+#include "vdbounce/implicit/blobs.h"
 #include "vdbounce/implicit/csg_operation.h"
 #include "vdbounce/implicit/height_grid.h"
 #include "vdbounce/implicit/shapes.h"
@@ -28,6 +29,11 @@ struct ColliderSpec {
         std::string file; ///< .png, .csv or .txt
         HeightfieldOptions place;
     };
+    /// The surface of particles, made a level set when the scene is read.
+    struct Blobs {
+        std::string file; ///< of particles
+        BlobOptions options;
+    };
     /// Of a collider that particles move. What is left out is that of a body of even density.
     struct Body {
         double mass = 1.0;            ///< > 0
@@ -41,6 +47,7 @@ struct ColliderSpec {
     std::string sequence; ///< a level set a frame, #### for the frame; interpolated in between
     std::optional<ShapeFormula> formula;
     std::optional<Heightfield> heightfield;
+    std::optional<Blobs> blobs;
     std::optional<Csg> csg;
 
     double restitution = 0.3; ///< 0 to 1

@@ -42,6 +42,7 @@ std::string describeForm(const ColliderSpec& spec)
         for (const std::string& name : spec.csg->of) text += (name == spec.csg->of.front() ? "'" : ", '") + name + "'";
         return text + ", ";
     }
+    if (spec.blobs) return "blobs, ";
     if (spec.heightfield) return "heightfield, ";
     const bool named = spec.formula && !std::holds_alternative<PlaneShape>(*spec.formula);
     return named ? std::string(nameOf(*spec.formula)) + ", " : "";

@@ -43,6 +43,7 @@ void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
     add(scene.particleFile);
     for (const ColliderSpec& collider : scene.colliders) {
         if (!collider.file.empty()) add(collider.file);
+        if (collider.blobs) add(collider.blobs->file);
         if (collider.heightfield) add(collider.heightfield->file);
         for (int frame = 0; !collider.sequence.empty() && frame <= lastFrame; ++frame)
             add(framePath(collider.sequence, frame));

@@ -8,6 +8,7 @@
 #include "vdbounce/implicit/heightfield.h"
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/number_text.h"
+#include "vdbounce/io/particle_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,17 @@ FieldPtr loadField(const std::string& path)
     } catch (const InputError& error) {
         throw InputError(path, error.what(), "write the file again");
     }
+}
+
+FieldPtr loadBlobs(const ColliderSpec::Blobs& blobs)
+{
+    return std::make_shared<const DistanceField>(makeBlobs(readParticles(blobs.file), blobs.options).grid);
+}
+
+// What a collider's level set goes by; of blobs no file has it.
+std::string fieldKey(const ColliderSpec& spec)
+{
+    return spec.blobs ? "the blobs of collider '" + spec.name + "'" : spec.file;
 }
 
 std::optional<BodyMass> bodyOf(const ColliderSpec& spec, const Shape& shape)
@@ -91,6 +103,7 @@ SceneColliders::SceneColliders(const Scene& scene) : scene_(scene)
             heightfields_[spec.name] = std::make_shared<const HeightfieldField>(readHeightMap(spec.heightfield->file),
                                                                                 spec.heightfield->place);
         }
+        if (spec.blobs) fields_[fieldKey(spec)] = loadBlobs(*spec.blobs);
         if (spec.file.empty()) continue;
         FieldPtr& field = fields_[spec.file];
         if (!field) field = loadField(spec.file);
@@ -115,7 +128,7 @@ Shape SceneColliders::shapeOf(const ColliderSpec& spec, int frame)
     if (spec.csg) return csgOf(spec, frame);
     if (!spec.sequence.empty()) return deformingShape(spec, frame);
     if (spec.heightfield) return heightfields_.at(spec.name);
-    if (!spec.formula) return fields_.at(spec.file);
+    if (!spec.formula) return fields_.at(fieldKey(spec));
     if (const auto* plane = std::get_if<PlaneShape>(&*spec.formula)) return PlaneField(plane->point, plane->normal);
     return makeField(*spec.formula);
 }
@@ -204,8 +217,8 @@ void SceneColliders::requireBandsForRadius(const ColliderSet& colliders, const P
         const bool complement = spec.csg->operation == CsgOperation::Complement;
         if (!complement && spec.csg->operation != CsgOperation::Subtraction) continue;
         for (std::size_t i = complement ? 0 : 1; i < spec.csg->of.size(); ++i) {
-            const std::string& file = specOf(spec.csg->of[i]).file;
-            if (file.empty()) continue;
+            const std::string file = fieldKey(specOf(spec.csg->of[i]));
+            if (fields_.count(file) == 0) continue;
             const DistanceField& field = *fields_.at(file);
             requireBand(field, field.interior(), file, "interior", reach, radius);
         }

@@ -110,6 +110,24 @@ ColliderSpec::Heightfield readHeightfield(SceneTable table, const std::string& s
     return heightfield;
 }
 
+ColliderSpec::Blobs readBlobs(SceneTable table, const std::string& sceneFile)
+{
+    for (const char* key : {"file", "voxel"}) table.require(key);
+    const BlobKernel kernels[] = {BlobKernel::Gaussian, BlobKernel::Compact, BlobKernel::Sphere};
+    ColliderSpec::Blobs blobs;
+    blobs.file = resolvedPath(sceneFile, table.text("file", ""));
+    BlobOptions& options = blobs.options;
+    options.voxelSize = table.number("voxel", 0.0);
+    if (!(options.voxelSize > 0.0)) table.fail("voxel", "is out of range", "give a positive length");
+    options.kernel = kernels[table.choice("kernel", {"gaussian", "compact", "sphere"}, 0)];
+    if (table.has("threshold")) options.threshold = table.number("threshold", 0.0);
+    if (table.has("radius")) options.radius = table.length("radius", {});
+    options.strength = table.number("strength", options.strength);
+    options.halfWidthVx = table.length("band", {options.halfWidthVx, true}).voxels(options.voxelSize);
+    table.finish();
+    return blobs;
+}
+
 ColliderSpec::Csg readCsg(SceneTable table)
 {
     const CsgOperation operations[] = {CsgOperation::Union, CsgOperation::Intersection, CsgOperation::Subtraction,
@@ -130,7 +148,7 @@ ColliderSpec::Csg readCsg(SceneTable table)
 // The keys that say which form a collider has.
 std::vector<const char*> formKeys()
 {
-    std::vector<const char*> keys = {"file", "sequence", "heightfield", "csg"};
+    std::vector<const char*> keys = {"file", "sequence", "heightfield", "blobs", "csg"};
     for (const FormulaReader& formula : kFormulas) keys.push_back(formula.key);
     return keys;
 }
@@ -185,7 +203,7 @@ void readForm(SceneTable& table, const std::string& sceneFile, ColliderSpec& col
             given > 1 ? *std::find_if(keys.begin(), keys.end(), [&](auto key) { return table.has(key); }) : "file",
             "is one of " + std::to_string(given) + " forms: exactly one is needed",
             "give file, sequence, csg or a shape: plane, sphere, box, capsule, cylinder, cone, torus, ellipsoid, "
-            "heightfield");
+            "heightfield, blobs");
     }
     collider.file = resolvedPath(sceneFile, table.text("file", ""));
     collider.sequence = resolvedPath(sceneFile, table.text("sequence", ""));
@@ -193,6 +211,7 @@ void readForm(SceneTable& table, const std::string& sceneFile, ColliderSpec& col
         table.fail("sequence", "has no #### for the frame", "write for example \"shape.####.vdb\", or use file");
     readFormula(table, collider);
     if (table.has("heightfield")) collider.heightfield = readHeightfield(table.table("heightfield"), sceneFile);
+    if (table.has("blobs")) collider.blobs = readBlobs(table.table("blobs"), sceneFile);
     if (table.has("csg")) collider.csg = readCsg(table.table("csg"));
     for (const char* key : keys) table.markKnown(key);
 }
