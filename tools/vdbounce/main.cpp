@@ -81,6 +81,7 @@ int run(int argc, char** argv)
     addEmit(app, common);
     addConvert(app, common);
     addCollide(app, common);
+    addRedistance(app, common);
     addRender(app, common);
     addSlice(app, common);
     addBench(app, common);

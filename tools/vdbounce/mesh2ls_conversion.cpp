@@ -4,6 +4,7 @@
 #include "progress_bar.h"
 #include "stopwatch.h"
 #include "thin_report.h"
+#include "voxel_text.h"
 
 #include "vdbounce/build/velocity_grid.h"
 #include "vdbounce/build/verify_level_set.h"
@@ -14,14 +15,6 @@
 
 namespace vdbounce::tool {
 namespace {
-
-// Sides of a rotated cube differ by rounding.
-constexpr double kSameSide = 1e-12;
-
-bool areCubes(const Vec3d& voxel) { return voxel.maxCoeff() - voxel.minCoeff() <= kSameSide * voxel.maxCoeff(); }
-
-Json voxelJson(const Vec3d& voxel) { return areCubes(voxel) ? Json(voxel.x()) : toJson(voxel); }
-std::string voxelText(const Vec3d& voxel) { return areCubes(voxel) ? rounded(voxel.x()) : vectorText(voxel); }
 
 Json choicesJson(const std::vector<SignChoice>& choices)
 {

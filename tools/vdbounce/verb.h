@@ -26,6 +26,7 @@ void addSample(CLI::App& app, const CommonOptions& common);
 void addEmit(CLI::App& app, const CommonOptions& common);
 void addConvert(CLI::App& app, const CommonOptions& common);
 void addCollide(CLI::App& app, const CommonOptions& common);
+void addRedistance(CLI::App& app, const CommonOptions& common);
 void addRender(CLI::App& app, const CommonOptions& common);
 void addSlice(CLI::App& app, const CommonOptions& common);
 void addBench(CLI::App& app, const CommonOptions& common);

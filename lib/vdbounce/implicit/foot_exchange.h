@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "vdbounce/implicit/foot_points.h"
+#include "vdbounce/implicit/foot_refinement.h"
 
 namespace vdbounce {
 
@@ -18,11 +18,10 @@ struct Margin {
     static constexpr Margin ofRefined() { return {0.999f, 1e-4f}; }
 };
 
-/// A bit for each voxel of a leaf.
-using VoxelSet = std::array<std::uint64_t, 8>;
-
 /// Hands points from voxel to voxel within leaf `i`, starting from its own and from those of the leaves beside its
-/// faces. True when a voxel took one over; which is noted in `changed` unless that is null.
-bool exchangeFeet(FootLeaves& leaves, std::size_t i, const VoxelMetric& metric, Margin margin, VoxelSet* changed);
+/// faces; where it is not `fresh` only the latter are new to its voxels. True when a voxel took one over; `changed`
+/// becomes those that did.
+bool exchangeFeet(FootLeaves& leaves, std::size_t i, const VoxelMetric& metric, Margin margin, bool fresh,
+                  VoxelSet& changed);
 
 } // namespace vdbounce

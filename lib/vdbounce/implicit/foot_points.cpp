@@ -113,7 +113,7 @@ FootLeaves makeLeaves(const FittedSurface& surface, const VoxelMetric& metric, f
 }
 
 // Hands points on until nothing changes, leaf by leaf in two colours. Leaves beside each other's faces have different
-// ones, so that no leaf is read while it changes. `use(leaf, exchange result)` is called for each that did change.
+// ones, so that no leaf is read while it changes. `visit(i, first)` tells whether leaf i changed.
 template <class Visit> void handOn(FootLeaves& leaves, Progress& progress, const Visit& visit)
 {
     std::vector<std::size_t> ofColour[2];
@@ -128,12 +128,13 @@ template <class Visit> void handOn(FootLeaves& leaves, Progress& progress, const
             throwIfStopped(progress);
             for (std::size_t k = range.begin; k < range.end; ++k) {
                 const std::size_t i = mine[k];
-                bool due = visitedAt[i] < 0;
+                const bool first = visitedAt[i] < 0;
+                bool due = first;
                 for (const std::int32_t n : leaves[i]->neighbours)
                     due = due || (n >= 0 && changedAt[std::size_t(n)] > visitedAt[i]);
                 if (!due) continue;
                 visitedAt[i] = round;
-                if (!visit(i)) continue;
+                if (!visit(i, first)) continue;
                 changedAt[i] = round + 1;
                 changed[block] = 1;
             }
@@ -148,19 +149,17 @@ template <class Visit> void handOn(FootLeaves& leaves, Progress& progress, const
 FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress)
 {
     FootLeaves leaves = makeLeaves(surface, metric, reach + kPatchReach);
-    handOn(leaves, progress,
-           [&](std::size_t i) { return exchangeFeet(leaves, i, metric, Margin::ofPoints(), nullptr); });
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
-        for (int v = 0; v < FootLeaf::kVoxels; ++v) {
-            if (leaves[i]->patch[v] != FootLeaf::kNone) refineFoot(surface, metric, *leaves[i], v);
-        }
+    handOn(leaves, progress, [&](std::size_t i, bool fresh) {
+        VoxelSet changed;
+        return exchangeFeet(leaves, i, metric, Margin::ofPoints(), fresh, changed);
     });
-    handOn(leaves, progress, [&](std::size_t i) {
-        VoxelSet changed{};
-        if (!exchangeFeet(leaves, i, metric, Margin::ofRefined(), &changed)) return false;
-        for (int v = 0; v < FootLeaf::kVoxels; ++v) {
-            if ((changed[std::size_t(v >> 6)] >> (v & 63) & 1) != 0) refineFoot(surface, metric, *leaves[i], v);
-        }
+    VoxelSet all;
+    all.fill(~std::uint64_t(0));
+    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) { refineFeet(surface, metric, all, *leaves[i]); });
+    handOn(leaves, progress, [&](std::size_t i, bool fresh) {
+        VoxelSet changed;
+        if (!exchangeFeet(leaves, i, metric, Margin::ofRefined(), fresh, changed)) return false;
+        refineFeet(surface, metric, changed, *leaves[i]);
         return true;
     });
     return leaves;

@@ -15,6 +15,7 @@ namespace vdbounce {
 struct FootLeaf {
     static constexpr int kVoxels = 512;
     static constexpr std::int32_t kNone = -1;
+    static constexpr float kLost = -1.0f; ///< squared length of a voxel that is not to get a point any more
 
     Vec3i origin;                            ///< the leaf's first voxel
     std::array<std::int32_t, 6> neighbours;  ///< leaves beside the faces, -x, +x, -y, +y, -z, +z; -1: none

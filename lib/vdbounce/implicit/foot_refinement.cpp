@@ -2,83 +2,22 @@
 #include "vdbounce/implicit/foot_refinement.h"
 
 #include "vdbounce/implicit/cell_triangles.h"
+#include "vdbounce/implicit/cubic_feet.h"
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace vdbounce {
 namespace {
 
-// Newton converges quadratically from a start within a voxel: the third step is below float rounding.
-constexpr int kNewtonSteps = 3;
+// A cubic is no longer trusted farther than this from the patch's own point, voxels: there are other patches.
+constexpr float kTrusted = 1.75f;
 
-// A cubic is no longer trusted farther than this from the patch's own point, along any axis, voxels: there are other
-// patches.
-constexpr float kTrusted = 1.25f;
-
-// A foot is good when the last step was shorter than this, voxels.
+// A foot is good when the last step was shorter than this, voxels: the error is its square.
 constexpr float kConverged = 0.02f;
 
-// The lines from voxels to their feet meet where the determinant is 0; near that the surface's bend is left out.
-constexpr float kSmallestDeterminant = 0.05f;
-
-float dot(const float (&a)[3], const float (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// The adjugate of a symmetric matrix (xx, yy, zz, xy, xz, yz), and its determinant.
-struct Adjugate {
-    float a[6];
-    float determinant;
-
-    explicit Adjugate(const float (&m)[6])
-    {
-        a[0] = m[1] * m[2] - m[5] * m[5];
-        a[1] = m[0] * m[2] - m[4] * m[4];
-        a[2] = m[0] * m[1] - m[3] * m[3];
-        a[3] = m[4] * m[5] - m[3] * m[2];
-        a[4] = m[3] * m[5] - m[4] * m[1];
-        a[5] = m[3] * m[4] - m[5] * m[0];
-        determinant = m[0] * a[0] + m[3] * a[3] + m[4] * a[4];
-    }
-    void apply(const float (&v)[3], float (&r)[3]) const
-    {
-        r[0] = a[0] * v[0] + a[3] * v[1] + a[4] * v[2];
-        r[1] = a[3] * v[0] + a[1] * v[1] + a[5] * v[2];
-        r[2] = a[4] * v[0] + a[5] * v[1] + a[2] * v[2];
-    }
-};
-
-// One step of Newton's method towards the point u on the zero line of `cubic` that is closest to q; returns its length,
-// the largest of its components.
-float newtonStep(const Cubic& cubic, const VoxelMetric& metric, const float (&q)[3], float (&u)[3])
-{
-    float value = 0.0f;
-    float gradient[3];
-    float second[6];
-    cubic.at(u, value, gradient, second);
-    const float r[3] = {q[0] - u[0], q[1] - u[1], q[2] - u[2]};
-    float mr[3];
-    metric.apply(r, mr);
-    const float lambda = dot(gradient, mr) / dot(gradient, gradient);
-    float m[6];
-    for (int i = 0; i < 6; ++i) m[i] = metric.g[i] + lambda * second[i];
-    Adjugate inverse(m);
-    if (!(inverse.determinant > kSmallestDeterminant)) inverse = Adjugate(metric.g);
-    float alongGradient[3];
-    float alongWay[3];
-    inverse.apply(gradient, alongGradient);
-    inverse.apply(mr, alongWay);
-    const float mu = (dot(gradient, alongWay) + value * inverse.determinant) / dot(gradient, alongGradient);
-    float length = 0.0f;
-    for (int a = 0; a < 3; ++a) {
-        const float step = (alongWay[a] - mu * alongGradient[a]) / inverse.determinant;
-        length = std::max(length, std::abs(step));
-        u[a] += step;
-    }
-    return length;
-}
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Foot {
     float way[3];
@@ -86,20 +25,92 @@ struct Foot {
     bool upright; // the way to it is perpendicular to the surface
 };
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Foot footOnCubic(const SurfacePatch& patch, const VoxelMetric& metric, const float (&q)[3], const float (&way)[3])
+void take(const Foot& foot, bool rim, FootLeaf& leaf, int v)
 {
-    float u[3];
-    for (int a = 0; a < 3; ++a) u[a] = q[a] + way[a];
-    float step = kInfinity;
-    for (int i = 0; i < kNewtonSteps; ++i) step = newtonStep(patch.cubic, metric, q, u);
-    bool good = step <= kConverged;
-    for (int a = 0; a < 3; ++a) good = good && std::abs(u[a] - patch.at[a]) <= kTrusted;
-    Foot foot{{u[0] - q[0], u[1] - q[1], u[2] - q[2]}, kInfinity, good};
-    if (good) foot.squared = metric.squared(foot.way);
-    return foot;
+    if (rim && !foot.upright) {
+        leaf.patch[v] = FootLeaf::kNone;
+        leaf.squared[v] = FootLeaf::kLost;
+        return;
+    }
+    // The start is on the surface only to a thousandth of a voxel, so a foot may be that much farther.
+    constexpr float kSlack = 1.001f;
+    constexpr float kSlackNear = 1e-4f;
+    if (!(foot.squared <= kSlack * leaf.squared[v] + kSlackNear)) return;
+    for (int a = 0; a < 3; ++a) leaf.way[a][v] = foot.way[a];
+    leaf.squared[v] = foot.squared;
 }
+
+// The voxel seen from the centre of the patch's cell.
+void fromCentre(const SurfacePatch& patch, const FootLeaf& leaf, int v, float (&q)[3])
+{
+    const int offset[3] = {v >> 6, v >> 3 & 7, v & 7};
+    for (int a = 0; a < 3; ++a) q[a] = float(leaf.origin[a] + offset[a] - patch.cell[a]) - 0.5f;
+}
+
+// Collects voxels with smooth patches until there are enough to be done at once.
+class SmoothVoxels {
+public:
+    SmoothVoxels(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf)
+        : surface_(surface), metric_(metric), leaf_(leaf)
+    {
+    }
+
+    void add(const SurfacePatch& patch, int v)
+    {
+        const auto i = std::size_t(count_++);
+        voxels_[i] = v;
+        float q[3];
+        fromCentre(patch, leaf_, v, q);
+        for (int t = 0; t < Cubic::kTerms; ++t) feet_.cubic[t][i] = patch.cubic.c[t];
+        for (int a = 0; a < 3; ++a) {
+            feet_.voxel[a][i] = q[a];
+            feet_.foot[a][i] = q[a] + leaf_.way[a][v];
+        }
+        if (count_ == CubicFeet::kCount) finish();
+    }
+
+    void finish()
+    {
+        if (count_ == 0) return;
+        for (int i = count_; i < CubicFeet::kCount; ++i) repeatFirst(std::size_t(i));
+        findCubicFeet(feet_, metric_);
+        for (int i = 0; i < count_; ++i) takeFoot(std::size_t(i));
+        count_ = 0;
+    }
+
+private:
+    void repeatFirst(std::size_t i)
+    {
+        for (auto& term : feet_.cubic) term[i] = term[0];
+        for (int a = 0; a < 3; ++a) {
+            feet_.voxel[a][i] = feet_.voxel[a][0];
+            feet_.foot[a][i] = feet_.foot[a][0];
+        }
+    }
+
+    void takeFoot(std::size_t i)
+    {
+        const int v = voxels_[i];
+        const SurfacePatch& patch = surface_.patches[std::size_t(leaf_.patch[v])];
+        Foot foot{};
+        float away = 0.0f;
+        for (int a = 0; a < 3; ++a) {
+            const float from = feet_.foot[a][i] - patch.at[a];
+            away += from * from;
+            foot.way[a] = feet_.foot[a][i] - feet_.voxel[a][i];
+        }
+        foot.upright = feet_.step[i] <= kConverged && away <= kTrusted * kTrusted;
+        foot.squared = foot.upright ? feet_.squared[i] : kInfinity;
+        take(foot, patch.rim != 0, leaf_, v);
+    }
+
+    const FittedSurface& surface_;
+    const VoxelMetric& metric_;
+    FootLeaf& leaf_;
+    CubicFeet feet_;
+    int voxels_[CubicFeet::kCount];
+    int count_ = 0;
+};
 
 Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, const VoxelMetric& metric,
                      const float (&q)[3])
@@ -123,50 +134,38 @@ Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, co
     return foot;
 }
 
-// The voxel seen from the centre of the patch's cell.
-void fromCentre(const SurfacePatch& patch, const FootLeaf& leaf, int v, float (&q)[3])
-{
-    const Vec3i voxel = leaf.voxel(v);
-    for (int a = 0; a < 3; ++a) q[a] = float(voxel[a] - patch.cell[a]) - 0.5f;
-}
-
 } // namespace
 
-void refineFoot(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf, int v)
+void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf)
 {
-    const SurfacePatch& patch = surface.patches[std::size_t(leaf.patch[v])];
-    float q[3];
-    fromCentre(patch, leaf, v, q);
-    const float way[3] = {leaf.way[0][v], leaf.way[1][v], leaf.way[2][v]};
-    const Foot foot =
-        patch.triangles > 0 ? footOnTriangles(surface, patch, metric, q) : footOnCubic(patch, metric, q, way);
-    if (patch.rim != 0 && !foot.upright) {
-        leaf.patch[v] = FootLeaf::kNone;
-        leaf.squared[v] = kInfinity;
-        return;
+    SmoothVoxels smooth(surface, metric, leaf);
+    for (int v = 0; v < FootLeaf::kVoxels; ++v) {
+        if (!contains(which, v) || leaf.patch[v] == FootLeaf::kNone) continue;
+        const SurfacePatch& patch = surface.patches[std::size_t(leaf.patch[v])];
+        if (patch.triangles == 0) {
+            smooth.add(patch, v);
+            continue;
+        }
+        float q[3];
+        fromCentre(patch, leaf, v, q);
+        take(footOnTriangles(surface, patch, metric, q), patch.rim != 0, leaf, v);
     }
-    // The start is on the surface only to a thousandth of a voxel, so a foot may be that much farther.
-    constexpr float kSlack = 1.001f;
-    constexpr float kSlackNear = 1e-4f;
-    if (!(foot.squared <= kSlack * leaf.squared[v] + kSlackNear)) return;
-    for (int a = 0; a < 3; ++a) leaf.way[a][v] = foot.way[a];
-    leaf.squared[v] = foot.squared;
+    smooth.finish();
 }
 
 bool outsideOfPatch(const FittedSurface& surface, const FootLeaf& leaf, int v)
 {
     const SurfacePatch& patch = surface.patches[std::size_t(leaf.patch[v])];
-    float q[3];
-    fromCentre(patch, leaf, v, q);
     float gradient[3] = {patch.cubic.c[1], patch.cubic.c[2], patch.cubic.c[3]};
     if (patch.triangles == 0) {
-        const float u[3] = {q[0] + leaf.way[0][v], q[1] + leaf.way[1][v], q[2] + leaf.way[2][v]};
+        float u[3];
+        fromCentre(patch, leaf, v, u);
+        for (int a = 0; a < 3; ++a) u[a] += leaf.way[a][v];
         float value = 0.0f;
         float second[6];
         patch.cubic.at(u, value, gradient, second);
     }
-    const float way[3] = {leaf.way[0][v], leaf.way[1][v], leaf.way[2][v]};
-    return dot(gradient, way) <= 0.0f;
+    return gradient[0] * leaf.way[0][v] + gradient[1] * leaf.way[1][v] + gradient[2] * leaf.way[2][v] <= 0.0f;
 }
 
 } // namespace vdbounce

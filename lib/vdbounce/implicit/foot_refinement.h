@@ -5,11 +5,17 @@
 
 namespace vdbounce {
 
-/// Moves the point that voxel `v` has to the closest one on the same patch; leaves it where none is found that is
-/// closer. Beside a rim of the surface, where the closest point would be beyond, the voxel loses its point.
-void refineFoot(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf, int v);
+/// A bit for each voxel of a leaf, z fastest.
+using VoxelSet = std::array<std::uint64_t, 8>;
 
-/// Whether the voxel lies where the patch's function grows, seen from its point.
+inline bool contains(const VoxelSet& set, int v) { return (set[std::size_t(v >> 6)] >> (v & 63) & 1) != 0; }
+
+/// Moves the points of those voxels to the closest ones on the same patches; leaves those alone for which none is found
+/// that is closer. Beside a rim of the surface, where the closest point would be beyond, a voxel loses its
+/// point for good. Voxels of the set without a point are passed over.
+void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf);
+
+/// Whether the voxel lies where its patch's function grows, seen from its point.
 bool outsideOfPatch(const FittedSurface& surface, const FootLeaf& leaf, int v);
 
 } // namespace vdbounce

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vdbounce {
 namespace {
@@ -34,6 +35,13 @@ double bandVx(const char* name, const std::optional<Length>& given, const openvd
         throw UsageError(name, numberText(voxels) + " voxels is out of range",
                          "give at least one voxel, for example 3vx");
     return voxels;
+}
+
+// The float above or at `width`, so that a band of 3 voxels is not a little less.
+float roundedUp(double width)
+{
+    const float rounded = float(width);
+    return double(rounded) < width ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
 [[noreturn]] void throwWithoutSurface(const openvdb::FloatGrid& grid, const std::string& place, double iso)
@@ -62,13 +70,18 @@ LevelSetGrid redistance(const ScalarGrid& implicit, const RedistanceOptions& opt
     const double interior = bandVx("interior band", options.interior, grid, metric.unit);
 
     const ImplicitSamples samples(grid, options.iso, options.inside);
+    constexpr std::uint64_t kStages = 3; // surface, closest points, grid
     samples.requireFinite();
     const FittedSurface surface = fitSurface(samples, metric, progress);
     if (surface.patches.empty()) throwWithoutSurface(grid, place, options.iso);
+    progress.update(1, kStages);
     FootLeaves feet = findFeet(surface, metric, float(std::max(exterior, interior)), progress);
-    const DistanceBand band{float(exterior * metric.unit), float(interior * metric.unit)};
-    return assembleDistances(std::move(feet), surface, samples, metric, band,
-                             options.name.empty() ? grid.getName() : options.name);
+    progress.update(2, kStages);
+    const DistanceBand band{roundedUp(exterior * metric.unit), roundedUp(interior * metric.unit)};
+    LevelSetGrid result = assembleDistances(std::move(feet), surface, samples, metric, band,
+                                            options.name.empty() ? grid.getName() : options.name);
+    progress.update(kStages, kStages);
+    return result;
 }
 
 } // namespace vdbounce
