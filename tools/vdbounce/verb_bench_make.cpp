@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/bench_blobs.h"
 #include "bench/bench_csg.h"
+#include "bench/bench_redistance.h"
 #include "bench/bench_shapes.h"
 #include "bench_report.h"
 #include "progress_bar.h"
@@ -18,6 +19,7 @@ void runBenchMake(const bench::MakeBenchOptions& options, const CommonOptions& c
         append(cases, bench::benchShapes(options, progress));
         append(cases, bench::benchCsg(options, progress));
         append(cases, bench::benchBlobs(options, progress));
+        append(cases, bench::benchRedistance(options, progress));
     }
     reportCases(common, cases);
 }
