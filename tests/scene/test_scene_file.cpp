@@ -102,7 +102,6 @@ TEST_CASE("a wrong scene is refused by name and line")
         {"[[collider]]\nname = \"a\"\nfile = \"a.vdb\"\n[[collider]]\nname = \"a\"\nfile = \"b.vdb\"\n", ":4",
          "two colliders are called 'a'"},
         {"[[collider]]\nplane = { point = [0,0,0], normal = [0,0,0] }\n", ":2", "normal"},
-        {"[[collider]]\nsphere = { radius = 1 }\n", ":2", "not supported by this version"},
         {"[[collider]]\nfile = \"a.vdb\"\nmotion = { speed = [1,0,0] }\n", ":3", "unknown key"},
         {"[[collider]]\nfile = \"a.vdb\"\nmotion = { keys = [] }\n", ":3", "is empty"},
         {"[[collider]]\nfile = \"a.vdb\"\nmotion = { keys = [ { translate = [0,0,0] } ] }\n", ":3", "time is missing"},

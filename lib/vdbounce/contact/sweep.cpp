@@ -148,12 +148,12 @@ std::optional<double> touchOf(const std::shared_ptr<const ImplicitField>& field,
     for (int piece = 0; piece < pieces; ++piece) {
         const double begin = end * piece / pieces;
         const double stop = end * (piece + 1) / pieces;
-        // The curved way is longer than its chord by no more than this.
-        const double way = (path.at(stop) - path.at(begin)).norm() + 8.0 * sagitta;
-        const double speed = (way + moved) * field->lipschitz() / (stop - begin);
+        // The curved way is longer than its chord by no more than this; and the surface comes to meet it.
+        const double way = (path.at(stop) - path.at(begin)).norm() + 8.0 * sagitta + moved;
+        const double speed = way * field->lipschitz() / (stop - begin);
         // A path that is short itself is not looked at more closely than it is worth.
         const double finest = std::max(kShortestStride * way, std::min(way / kFewestStrides, field->resolution()));
-        const double shortest = finest * (stop - begin) / (way + moved);
+        const double shortest = finest * (stop - begin) / way;
         for (double t = begin;;) {
             const double clear = gap(t);
             if (clear < 0.0) return halvedDown(gap, free, t);
