@@ -20,10 +20,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Span = hn::CappedTag<float, CubicFeet::kCount>;
 using V = hn::Vec<Span>;
 
-constexpr int kNewtonSteps = 3;
+// Two steps do where the surface is far from the voxel's side of its bend; near where the ways to it meet, more.
+constexpr int kNewtonSteps = 8;
+
+// A voxel is done after a step shorter than this, voxels: what is left is its square.
+constexpr float kDone = 2e-3f;
 
 // Below this determinant of (metric + bend) the surface's bend is left out.
-constexpr float kSmallestDeterminant = 0.05f;
+constexpr float kSmallestDeterminant = 1e-3f;
 
 HWY_INLINE V set(float value) { return hn::Set(Span(), value); }
 HWY_INLINE V sum(V a, V b, V c) { return hn::Add(hn::Add(a, b), c); }
@@ -144,8 +148,16 @@ void findFeet(CubicFeet& feet, const VoxelMetric& voxels)
             voxel[a] = hn::Load(d, feet.voxel[a] + i);
             foot[a] = hn::Load(d, feet.foot[a] + i);
         }
-        V step = hn::Zero(d);
-        for (int n = 0; n < kNewtonSteps; ++n) step = newtonStep(cubic, metric, voxel, foot);
+        // Each lane stops by itself, so that its bits do not depend on those beside it.
+        V step = set(1.0f);
+        auto going = hn::Gt(step, hn::Zero(d));
+        for (int n = 0; n < kNewtonSteps && !hn::AllFalse(d, going); ++n) {
+            V next[3] = {foot[0], foot[1], foot[2]};
+            const V length = newtonStep(cubic, metric, voxel, next);
+            for (int a = 0; a < 3; ++a) foot[a] = hn::IfThenElse(going, next[a], foot[a]);
+            step = hn::IfThenElse(going, length, step);
+            going = hn::And(going, hn::Gt(length, set(kDone)));
+        }
         const V way[3] = {hn::Sub(foot[0], voxel[0]), hn::Sub(foot[1], voxel[1]), hn::Sub(foot[2], voxel[2])};
         V mapped[3];
         apply(metric, way, mapped);

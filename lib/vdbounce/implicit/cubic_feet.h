@@ -17,9 +17,9 @@ struct CubicFeet {
     alignas(64) float squared[kCount]; ///< out: from voxel to foot, squared, in units of the metric
 };
 
-/// Newton's method on "the foot is on the zero line, and the way to it is along the gradient" (Lagrange), three steps
-/// from a start within a voxel, beyond which float rounding is larger. Where the lines from voxels to their feet
-/// meet, the surface's bend is left out, which is the step of Chopp (2001). The same bits on every processor.
+/// Newton's method on "the foot is on the zero line, and the way to it is along the gradient" (Lagrange), from a
+/// start within a voxel. Where the lines from voxels to their feet meet, the surface's bend is left out, which is the
+/// step of Chopp (2001). The same bits on every processor.
 void findCubicFeet(CubicFeet& feet, const VoxelMetric& metric);
 
 } // namespace vdbounce

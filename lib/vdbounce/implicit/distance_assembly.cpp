@@ -46,10 +46,22 @@ void spread(ImplicitSamples::Sides& sides)
     }
 }
 
-ImplicitSamples::Sides sidesOf(const FootLeaf& leaf, const FittedSurface& surface, const ImplicitSamples& samples)
+// Beyond where a level set was cut off its background says outside, whatever the surface says: no distance is known.
+void dropContradictions(const FittedSurface& surface, const ImplicitSamples::Sides& sides, FootLeaf& leaf)
+{
+    for (int v = 0; v < FootLeaf::kVoxels; ++v) {
+        if (leaf.patch[v] == FootLeaf::kNone || surface.patches[std::size_t(leaf.patch[v])].rim == 0) continue;
+        if (outsideOfPatch(surface, leaf, v) == bitOf(sides.inside, v)) leaf.patch[v] = FootLeaf::kNone;
+    }
+}
+
+ImplicitSamples::Sides sidesOf(FootLeaf& leaf, const FittedSurface& surface, const ImplicitSamples& samples)
 {
     ImplicitSamples::Sides sides = samples.sides(leaf.origin);
-    if (samples.sideKnownEverywhere()) return sides;
+    if (samples.sideKnownEverywhere()) {
+        dropContradictions(surface, sides, leaf);
+        return sides;
+    }
     for (int v = 0; v < FootLeaf::kVoxels; ++v) {
         if (bitOf(sides.known, v) || leaf.patch[v] == FootLeaf::kNone) continue;
         const std::uint64_t bit = std::uint64_t(1) << (v & 63);

@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace vdbounce {
@@ -25,19 +27,21 @@ struct Foot {
     bool upright; // the way to it is perpendicular to the surface
 };
 
-void take(const Foot& foot, bool rim, FootLeaf& leaf, int v)
+// False where the foot is not closer, so that the start remains.
+bool take(const Foot& foot, bool rim, FootLeaf& leaf, int v)
 {
     if (rim && !foot.upright) {
         leaf.patch[v] = FootLeaf::kNone;
         leaf.squared[v] = FootLeaf::kLost;
-        return;
+        return true;
     }
     // The start is on the surface only to a thousandth of a voxel, so a foot may be that much farther.
     constexpr float kSlack = 1.001f;
     constexpr float kSlackNear = 1e-4f;
-    if (!(foot.squared <= kSlack * leaf.squared[v] + kSlackNear)) return;
+    if (!(foot.squared <= kSlack * leaf.squared[v] + kSlackNear)) return false;
     for (int a = 0; a < 3; ++a) leaf.way[a][v] = foot.way[a];
     leaf.squared[v] = foot.squared;
+    return true;
 }
 
 // The voxel seen from the centre of the patch's cell.
@@ -78,6 +82,8 @@ public:
         count_ = 0;
     }
 
+    const VoxelSet& failed() const { return failed_; }
+
 private:
     void repeatFirst(std::size_t i)
     {
@@ -101,7 +107,7 @@ private:
         }
         foot.upright = feet_.step[i] <= kConverged && away <= kTrusted * kTrusted;
         foot.squared = foot.upright ? feet_.squared[i] : kInfinity;
-        take(foot, patch.rim != 0, leaf_, v);
+        if (!take(foot, patch.rim != 0, leaf_, v)) insert(v, failed_);
     }
 
     const FittedSurface& surface_;
@@ -110,6 +116,7 @@ private:
     CubicFeet feet_;
     int voxels_[CubicFeet::kCount];
     int count_ = 0;
+    VoxelSet failed_{};
 };
 
 Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, const VoxelMetric& metric,
@@ -134,11 +141,81 @@ Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, co
     return foot;
 }
 
+// The closest point of a smooth patch within its cell, or no farther beyond than this, voxels from its centre.
+constexpr float kOwnCell = 0.75f;
+
+Foot footOnCubic(const SurfacePatch& patch, const VoxelMetric& metric, const float (&q)[3])
+{
+    CubicFeet feet;
+    for (std::size_t i = 0; i < CubicFeet::kCount; ++i) {
+        for (int t = 0; t < Cubic::kTerms; ++t) feet.cubic[t][i] = patch.cubic.c[t];
+        for (int a = 0; a < 3; ++a) {
+            feet.voxel[a][i] = q[a];
+            feet.foot[a][i] = patch.at[a];
+        }
+    }
+    findCubicFeet(feet, metric);
+    Foot foot{{0.0f, 0.0f, 0.0f}, feet.squared[0], feet.step[0] <= kConverged};
+    for (int a = 0; a < 3; ++a) {
+        foot.way[a] = feet.foot[a][0] - q[a];
+        foot.upright = foot.upright && std::abs(feet.foot[a][0]) <= kOwnCell;
+    }
+    if (foot.upright) return foot;
+    // Else its own point, which is on the surface at least.
+    for (int a = 0; a < 3; ++a) foot.way[a] = patch.at[a] - q[a];
+    foot.squared = metric.squared(foot.way);
+    return foot;
+}
+
+// A lower bound of the distance from q to the cell around the origin, squared.
+float cellDistanceSquared(const VoxelMetric& metric, const float (&q)[3])
+{
+    float squared = 0.0f;
+    for (const float c : q) {
+        const float beyond = std::max(std::abs(c) - 0.5f, 0.0f);
+        squared += beyond * beyond;
+    }
+    return metric.shortest * metric.shortest * squared;
+}
+
+// Looks for a closer point in the 27 cells around the voxel's point; true when there is one.
+bool searchAround(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf, int v)
+{
+    const Vec3i voxel = leaf.voxel(v);
+    Vec3i cell;
+    for (int a = 0; a < 3; ++a) cell[a] = voxel[a] + int(std::floor(leaf.way[a][v]));
+    const std::int32_t own = leaf.patch[v];
+    bool found = false;
+    for (int n = 0; n < 27; ++n) {
+        const Vec3i there = cell + Vec3i(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
+        float q[3];
+        for (int a = 0; a < 3; ++a) q[a] = float(voxel[a] - there[a]) - 0.5f;
+        if (cellDistanceSquared(metric, q) >= leaf.squared[v]) continue;
+        const std::int32_t number = surface.patchOf(there);
+        if (number < 0 || number == own) continue;
+        const SurfacePatch& patch = surface.patches[std::size_t(number)];
+        if (patch.rim != 0) continue;
+        const Foot foot =
+            patch.triangles > 0 ? footOnTriangles(surface, patch, metric, q) : footOnCubic(patch, metric, q);
+        const Margin margin = Margin::ofRefined();
+        if (!(foot.squared < margin.factor * leaf.squared[v] - margin.offset)) continue;
+        for (int a = 0; a < 3; ++a) leaf.way[a][v] = foot.way[a];
+        leaf.squared[v] = foot.squared;
+        leaf.patch[v] = number;
+        found = true;
+    }
+    return found;
+}
+
+// Cells that a search walks through at most. It ends earlier, having come closer each time.
+constexpr int kWalk = 16;
+
 } // namespace
 
 void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf)
 {
     SmoothVoxels smooth(surface, metric, leaf);
+    VoxelSet kinked{};
     for (int v = 0; v < FootLeaf::kVoxels; ++v) {
         if (!contains(which, v) || leaf.patch[v] == FootLeaf::kNone) continue;
         const SurfacePatch& patch = surface.patches[std::size_t(leaf.patch[v])];
@@ -149,8 +226,15 @@ void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const V
         float q[3];
         fromCentre(patch, leaf, v, q);
         take(footOnTriangles(surface, patch, metric, q), patch.rim != 0, leaf, v);
+        insert(v, kinked);
     }
     smooth.finish();
+    for (int v = 0; v < FootLeaf::kVoxels; ++v) {
+        if (!contains(kinked, v) && !contains(smooth.failed(), v)) continue;
+        for (int i = 0; i < kWalk && leaf.patch[v] != FootLeaf::kNone; ++i) {
+            if (!searchAround(surface, metric, leaf, v)) break;
+        }
+    }
 }
 
 bool outsideOfPatch(const FittedSurface& surface, const FootLeaf& leaf, int v)

@@ -9,8 +9,24 @@ namespace vdbounce {
 namespace {
 
 constexpr std::size_t kLeavesPerTask = 16;
+constexpr std::size_t kCells = 512; // of a leaf
+
+std::size_t offsetOf(const Vec3i& cell)
+{
+    return std::size_t((cell.x() & 7) * 64 + (cell.y() & 7) * 8 + (cell.z() & 7));
+}
 
 } // namespace
+
+std::int32_t FittedSurface::patchOf(const Vec3i& cell) const
+{
+    const Vec3i origin(cell.x() & ~7, cell.y() & ~7, cell.z() & ~7);
+    const auto found = std::lower_bound(leaves.begin(), leaves.end(), origin, [](const Leaf& a, const Vec3i& b) {
+        return std::lexicographical_compare(a.origin.data(), a.origin.data() + 3, b.data(), b.data() + 3);
+    });
+    if (found == leaves.end() || found->origin != origin) return -1;
+    return ofCell[std::size_t(found - leaves.begin()) * kCells + offsetOf(cell)];
+}
 
 FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress)
 {
@@ -39,9 +55,14 @@ FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metr
     }
     surface.patches.resize(patches);
     surface.triangles.resize(triangles);
+    surface.ofCell.assign(surface.leaves.size() * kCells, -1);
     forEachIndex(source.size(), kLeavesPerTask, [&](std::size_t i) {
         LeafPatches& from = found[source[i]];
-        for (SurfacePatch& patch : from.patches) patch.firstTriangle += std::uint32_t(firstTriangle[i]);
+        auto number = std::int32_t(surface.leaves[i].begin);
+        for (SurfacePatch& patch : from.patches) {
+            patch.firstTriangle += std::uint32_t(firstTriangle[i]);
+            surface.ofCell[i * kCells + offsetOf(Vec3i(patch.cell[0], patch.cell[1], patch.cell[2]))] = number++;
+        }
         std::copy(from.patches.begin(), from.patches.end(),
                   surface.patches.begin() + std::ptrdiff_t(surface.leaves[i].begin));
         std::copy(from.triangles.begin(), from.triangles.end(),

@@ -19,7 +19,11 @@ struct FittedSurface {
     };
     std::vector<SurfacePatch> patches;
     std::vector<PatchTriangle> triangles;
-    std::vector<Leaf> leaves; ///< in lexicographic order, none without patches
+    std::vector<Leaf> leaves;         ///< in lexicographic order, none without patches
+    std::vector<std::int32_t> ofCell; ///< for each leaf's 512 cells, z fastest, the patch; -1: none
+
+    /// The patch of the cell whose lowest corner is that voxel; -1 where there is none.
+    std::int32_t patchOf(const Vec3i& cell) const;
 };
 
 FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress);

@@ -13,7 +13,7 @@ namespace {
 // Second and third derivatives, over the gradient and voxels, beyond which a function counts as kinked: a right angle
 // gives 1, a sphere of radius 3 voxels 0.5.
 constexpr float kLargestSecond = 0.6f;
-constexpr float kLargestThird = 0.4f;
+constexpr float kLargestThird = 0.3f;
 
 // The patch's point is found when a Newton step is shorter than this, voxels.
 constexpr float kFound = 1e-3f;

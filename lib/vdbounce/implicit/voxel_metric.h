@@ -8,10 +8,11 @@ namespace vdbounce {
 /// How long index-space vectors are in space, in units of a voxel's longest side: |A v| with the metric A^T A. For any
 /// linear transform.
 struct VoxelMetric {
-    double unit;   ///< the longest side, world units
-    Mat3d toSpace; ///< A
-    Mat3d toIndex; ///< its inverse
-    float g[6];    ///< of A^T A: xx, yy, zz, xy, xz, yz
+    double unit;    ///< the longest side, world units
+    Mat3d toSpace;  ///< A
+    Mat3d toIndex;  ///< its inverse
+    float g[6];     ///< of A^T A: xx, yy, zz, xy, xz, yz
+    float shortest; ///< no vector of length 1 in index space is shorter than this in space
 
     explicit VoxelMetric(const LinearTransform& transform)
         : unit(transform.voxelSize().maxCoeff()), toSpace(transform.indexToWorld() / unit),
@@ -20,6 +21,7 @@ struct VoxelMetric {
         const Mat3d m = toSpace.transpose() * toSpace;
         const double values[6] = {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)};
         for (int i = 0; i < 6; ++i) g[i] = float(values[i]);
+        shortest = float(transform.orthogonal() ? toSpace.colwise().norm().minCoeff() : 1.0 / toIndex.norm());
     }
 
     /// A^T A v
