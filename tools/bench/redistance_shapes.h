@@ -35,7 +35,7 @@ struct Distortion {
     std::string name;
     std::function<double(double, const Vec3d&)> value;
 };
-std::vector<Distortion> distortions();
+std::vector<Distortion> distortions(); ///< the first leaves the distance alone
 
 /// A level set of half width 3 voxels whose active values are distorted.
 ScalarGrid distortedLevelSet(const RedistanceShape& shape, const Distortion& distortion, double voxelSize);

@@ -43,9 +43,10 @@ struct RedistanceOptions {
 /// Where the active voxels end and a surface does too, it was cut off ("clipped"): none is made up there. Voxels whose
 /// closest point would be on the missing part stay inactive, so the band ends about where the surface does.
 ///
-/// Error: where the function is smooth and the surface's radii of curvature are R voxels, some 0.1/R^3 voxels (a sphere
-/// of 50 voxels, band 3: 1e-6 at most). Edges and corners are known no better than their cell: up to half a voxel at
-/// the edge, nothing two voxels beside it. Features that no sign change between neighbouring voxels shows do not exist.
+/// Error: where the function is smooth and the surface's radii of curvature are R voxels, at most some 0.8/R^3 voxels
+/// (a sphere of 50 voxels, band 3: 5e-6). Edges and corners are known no better than their cell: up to half a voxel at
+/// an edge, 0.8 at a corner of three, little two voxels beside it. Features that no sign change between neighbouring
+/// voxels shows do not exist.
 ///
 /// Method: each cell with a sign change gets a cubic polynomial fitted to the 32 voxels in it and beside its faces, or,
 /// where that is not smooth, the triangles of marching tetrahedra. Points of these patches are handed from voxel to
@@ -53,8 +54,8 @@ struct RedistanceOptions {
 /// method, which improves on the alternation of Chopp (2001). So the error does not grow with the distance, as it
 /// does when phi itself is swept outwards.
 ///
-/// The same bits for any number of threads and any processor. Memory: 10 KB for each 8^3 leaf within the band, and 120
-/// bytes for each cell on the surface, besides the result.
+/// The same bits for any number of threads and any processor. Memory besides the result: 10 KB for each 8^3 leaf within
+/// the band, and 120 bytes for each cell on the surface.
 ///
 /// Throws InputError for a grid without active voxels, whose values are all on one side of `iso` (naming their range),
 /// with an active value that is not a finite number (naming the voxel), or whose transform is not linear; UsageError
