@@ -80,6 +80,10 @@ void addTriangles(const float* cell, const VoxelMetric& metric, SurfacePatch& pa
         const Vector3f found = closestPoint(triangles[t], mean);
         if ((found - mean).squaredNorm() < (best - mean).squaredNorm()) best = found;
     }
+    patch.reach = 0.0f;
+    for (std::size_t t = first; t < triangles.size(); ++t) {
+        for (const Vector3f& corner : triangles[t]) patch.reach = std::max(patch.reach, (corner - best).norm());
+    }
     const Vec3d at = metric.toIndex * best.cast<double>();
     patch.cubic = Cubic{};
     for (int a = 0; a < 3; ++a) patch.at[a] = float(at[a]);

@@ -162,6 +162,7 @@ FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, flo
         refineFeet(surface, metric, changed, *leaves[i]);
         return true;
     });
+    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) { searchFeet(surface, metric, *leaves[i]); });
     return leaves;
 }
 

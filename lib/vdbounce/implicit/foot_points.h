@@ -11,6 +11,13 @@
 
 namespace vdbounce {
 
+/// A bit for each voxel of a leaf, z fastest.
+using VoxelSet = std::array<std::uint64_t, 8>;
+
+inline bool contains(const VoxelSet& set, int v) { return (set[std::size_t(v >> 6)] >> (v & 63) & 1) != 0; }
+inline void insert(int v, VoxelSet& set) { set[std::size_t(v >> 6)] |= std::uint64_t(1) << (v & 63); }
+inline void erase(int v, VoxelSet& set) { set[std::size_t(v >> 6)] &= ~(std::uint64_t(1) << (v & 63)); }
+
 /// For each voxel of an 8^3 leaf (z fastest) the way to a point of the surface.
 struct FootLeaf {
     static constexpr int kVoxels = 512;
@@ -22,6 +29,7 @@ struct FootLeaf {
     alignas(64) float way[3][kVoxels];       ///< to the point, voxels (index space)
     alignas(64) float squared[kVoxels];      ///< its length squared, in units of VoxelMetric
     alignas(64) std::int32_t patch[kVoxels]; ///< the patch that the point is on; kNone where none is within reach
+    VoxelSet unsure{};                       ///< voxels whose point may not be the closest of those around
 
     Vec3i voxel(int v) const { return origin + Vec3i(v >> 6, v >> 3 & 7, v & 7); }
 };
@@ -35,8 +43,9 @@ using FootLeaves = std::vector<std::unique_ptr<FootLeaf>>;
 /// Method: each voxel beside a patch starts from that patch's point; points are handed from voxel to voxel, in sweeps
 /// within leaves and from leaf to leaf (a vector distance transform, Danielsson 1980), so that each finds the nearest
 /// or nearly so. Then each voxel finds the closest point on its patch, by Newton's method on the cubic or exactly on
-/// the triangles. Where a neighbour has found a closer one, it is taken over, with its patch, and improved again.
-/// Leaves are swept in two colours like a chess board's, so that the result does not depend on threads.
+/// the triangles. Where a neighbour has found a closer one, it is taken over, with its patch, and improved again. Where
+/// the surface has kinks or the closest point is beyond the patch, the cells around are searched last. Leaves are swept
+/// in two colours like a chess board's, so that the result does not depend on threads.
 FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress);
 
 } // namespace vdbounce

@@ -82,8 +82,6 @@ public:
         count_ = 0;
     }
 
-    const VoxelSet& failed() const { return failed_; }
-
 private:
     void repeatFirst(std::size_t i)
     {
@@ -107,7 +105,11 @@ private:
         }
         foot.upright = feet_.step[i] <= kConverged && away <= kTrusted * kTrusted;
         foot.squared = foot.upright ? feet_.squared[i] : kInfinity;
-        if (!take(foot, patch.rim != 0, leaf_, v)) insert(v, failed_);
+        if (take(foot, patch.rim != 0, leaf_, v)) {
+            erase(v, leaf_.unsure);
+        } else {
+            insert(v, leaf_.unsure);
+        }
     }
 
     const FittedSurface& surface_;
@@ -116,7 +118,6 @@ private:
     CubicFeet feet_;
     int voxels_[CubicFeet::kCount];
     int count_ = 0;
-    VoxelSet failed_{};
 };
 
 Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, const VoxelMetric& metric,
@@ -178,6 +179,15 @@ float cellDistanceSquared(const VoxelMetric& metric, const float (&q)[3])
     return metric.shortest * metric.shortest * squared;
 }
 
+// No triangle of the patch is closer than that.
+bool beyond(const SurfacePatch& patch, const VoxelMetric& metric, const float (&q)[3], float squared)
+{
+    if (patch.triangles == 0) return false;
+    const float way[3] = {patch.at[0] - q[0], patch.at[1] - q[1], patch.at[2] - q[2]};
+    const float nearest = std::sqrt(metric.squared(way)) - patch.reach;
+    return nearest > 0.0f && nearest * nearest >= squared;
+}
+
 // Looks for a closer point in the 27 cells around the voxel's point; true when there is one.
 bool searchAround(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf, int v)
 {
@@ -186,15 +196,16 @@ bool searchAround(const FittedSurface& surface, const VoxelMetric& metric, FootL
     for (int a = 0; a < 3; ++a) cell[a] = voxel[a] + int(std::floor(leaf.way[a][v]));
     const std::int32_t own = leaf.patch[v];
     bool found = false;
+    std::size_t near = 0;
     for (int n = 0; n < 27; ++n) {
         const Vec3i there = cell + Vec3i(n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1);
         float q[3];
         for (int a = 0; a < 3; ++a) q[a] = float(voxel[a] - there[a]) - 0.5f;
         if (cellDistanceSquared(metric, q) >= leaf.squared[v]) continue;
-        const std::int32_t number = surface.patchOf(there);
+        const std::int32_t number = surface.patchOf(there, near);
         if (number < 0 || number == own) continue;
         const SurfacePatch& patch = surface.patches[std::size_t(number)];
-        if (patch.rim != 0) continue;
+        if (patch.rim != 0 || beyond(patch, metric, q, leaf.squared[v])) continue;
         const Foot foot =
             patch.triangles > 0 ? footOnTriangles(surface, patch, metric, q) : footOnCubic(patch, metric, q);
         const Margin margin = Margin::ofRefined();
@@ -215,7 +226,6 @@ constexpr int kWalk = 16;
 void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf)
 {
     SmoothVoxels smooth(surface, metric, leaf);
-    VoxelSet kinked{};
     for (int v = 0; v < FootLeaf::kVoxels; ++v) {
         if (!contains(which, v) || leaf.patch[v] == FootLeaf::kNone) continue;
         const SurfacePatch& patch = surface.patches[std::size_t(leaf.patch[v])];
@@ -226,11 +236,15 @@ void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const V
         float q[3];
         fromCentre(patch, leaf, v, q);
         take(footOnTriangles(surface, patch, metric, q), patch.rim != 0, leaf, v);
-        insert(v, kinked);
+        insert(v, leaf.unsure);
     }
     smooth.finish();
+}
+
+void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf)
+{
     for (int v = 0; v < FootLeaf::kVoxels; ++v) {
-        if (!contains(kinked, v) && !contains(smooth.failed(), v)) continue;
+        if (!contains(leaf.unsure, v)) continue;
         for (int i = 0; i < kWalk && leaf.patch[v] != FootLeaf::kNone; ++i) {
             if (!searchAround(surface, metric, leaf, v)) break;
         }

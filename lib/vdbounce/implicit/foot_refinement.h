@@ -18,17 +18,14 @@ struct Margin {
     static constexpr Margin ofRefined() { return {0.999f, 1e-4f}; }
 };
 
-/// A bit for each voxel of a leaf, z fastest.
-using VoxelSet = std::array<std::uint64_t, 8>;
-
-inline bool contains(const VoxelSet& set, int v) { return (set[std::size_t(v >> 6)] >> (v & 63) & 1) != 0; }
-
-inline void insert(int v, VoxelSet& set) { set[std::size_t(v >> 6)] |= std::uint64_t(1) << (v & 63); }
-
-/// Moves the points of those voxels to the closest ones on the same patches; and on those of the cells around, wherever
-/// the surface has kinks or the closest point is beyond the patch. Beside a rim of the surface, where the closest point
-/// would be beyond, a voxel loses its point for good. Voxels of the set without a point are passed over.
+/// Moves the points of those voxels to the closest ones on the same patches; those for which none is found, and those
+/// whose patch has kinks, become unsure. Beside a rim of the surface, where the closest point would be beyond, a voxel
+/// loses its point for good. Voxels of the set without a point are passed over.
 void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf);
+
+/// Gives the leaf's unsure voxels the closest point on any patch of the cells around theirs, and again from there while
+/// that comes closer.
+void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf);
 
 /// Whether the voxel lies where its patch's function grows, seen from its point.
 bool outsideOfPatch(const FittedSurface& surface, const FootLeaf& leaf, int v);

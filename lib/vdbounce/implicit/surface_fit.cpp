@@ -18,14 +18,17 @@ std::size_t offsetOf(const Vec3i& cell)
 
 } // namespace
 
-std::int32_t FittedSurface::patchOf(const Vec3i& cell) const
+std::int32_t FittedSurface::patchOf(const Vec3i& cell, std::size_t& leaf) const
 {
     const Vec3i origin(cell.x() & ~7, cell.y() & ~7, cell.z() & ~7);
-    const auto found = std::lower_bound(leaves.begin(), leaves.end(), origin, [](const Leaf& a, const Vec3i& b) {
-        return std::lexicographical_compare(a.origin.data(), a.origin.data() + 3, b.data(), b.data() + 3);
-    });
-    if (found == leaves.end() || found->origin != origin) return -1;
-    return ofCell[std::size_t(found - leaves.begin()) * kCells + offsetOf(cell)];
+    if (leaf >= leaves.size() || leaves[leaf].origin != origin) {
+        const auto found = std::lower_bound(leaves.begin(), leaves.end(), origin, [](const Leaf& a, const Vec3i& b) {
+            return std::lexicographical_compare(a.origin.data(), a.origin.data() + 3, b.data(), b.data() + 3);
+        });
+        if (found == leaves.end() || found->origin != origin) return -1;
+        leaf = std::size_t(found - leaves.begin());
+    }
+    return ofCell[leaf * kCells + offsetOf(cell)];
 }
 
 FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress)

@@ -22,8 +22,9 @@ struct FittedSurface {
     std::vector<Leaf> leaves;         ///< in lexicographic order, none without patches
     std::vector<std::int32_t> ofCell; ///< for each leaf's 512 cells, z fastest, the patch; -1: none
 
-    /// The patch of the cell whose lowest corner is that voxel; -1 where there is none.
-    std::int32_t patchOf(const Vec3i& cell) const;
+    /// The patch of the cell whose lowest corner is that voxel; -1 where there is none. `leaf` is where it was found
+    /// the last time, an index into `leaves`, and is kept for the next.
+    std::int32_t patchOf(const Vec3i& cell, std::size_t& leaf) const;
 };
 
 FittedSurface fitSurface(const ImplicitSamples& samples, const VoxelMetric& metric, Progress& progress);

@@ -32,6 +32,7 @@ struct SurfacePatch {
     std::int32_t cell[3];    ///< the voxel at the cell's lowest corner
     std::uint32_t triangles; ///< how many; 0 where the surface is smooth
     std::uint32_t firstTriangle;
+    float reach;       ///< how far from its point the triangles go, units of the metric
     std::uint32_t rim; ///< the surface is cut off next to the cell
 };
 
