@@ -155,14 +155,18 @@ FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, flo
     });
     VoxelSet all;
     all.fill(~std::uint64_t(0));
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) { refineFeet(surface, metric, all, *leaves[i]); });
+    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
+        refineFeet(surface, metric, all, *leaves[i]);
+        searchFeet(surface, metric, Unsure::BeyondPatch, *leaves[i]);
+    });
     handOn(leaves, progress, [&](std::size_t i, bool fresh) {
         VoxelSet changed;
         if (!exchangeFeet(leaves, i, metric, Margin::ofRefined(), fresh, changed)) return false;
         refineFeet(surface, metric, changed, *leaves[i]);
         return true;
     });
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) { searchFeet(surface, metric, *leaves[i]); });
+    forEachIndex(leaves.size(), kLeavesPerTask,
+                 [&](std::size_t i) { searchFeet(surface, metric, Unsure::All, *leaves[i]); });
     return leaves;
 }
 

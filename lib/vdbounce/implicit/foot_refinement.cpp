@@ -241,10 +241,12 @@ void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const V
     smooth.finish();
 }
 
-void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf)
+void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, Unsure which, FootLeaf& leaf)
 {
     for (int v = 0; v < FootLeaf::kVoxels; ++v) {
-        if (!contains(leaf.unsure, v)) continue;
+        if (!contains(leaf.unsure, v) || leaf.patch[v] == FootLeaf::kNone) continue;
+        const bool smooth = surface.patches[std::size_t(leaf.patch[v])].triangles == 0;
+        if (which == Unsure::BeyondPatch && !smooth) continue;
         for (int i = 0; i < kWalk && leaf.patch[v] != FootLeaf::kNone; ++i) {
             if (!searchAround(surface, metric, leaf, v)) break;
         }

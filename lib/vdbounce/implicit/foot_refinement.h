@@ -23,9 +23,15 @@ struct Margin {
 /// loses its point for good. Voxels of the set without a point are passed over.
 void refineFeet(const FittedSurface& surface, const VoxelMetric& metric, const VoxelSet& which, FootLeaf& leaf);
 
+/// Which of a leaf's unsure voxels.
+enum class Unsure {
+    BeyondPatch, ///< those whose patch is smooth: few, but what they find helps their neighbours
+    All,
+};
+
 /// Gives the leaf's unsure voxels the closest point on any patch of the cells around theirs, and again from there while
 /// that comes closer.
-void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, FootLeaf& leaf);
+void searchFeet(const FittedSurface& surface, const VoxelMetric& metric, Unsure which, FootLeaf& leaf);
 
 /// Whether the voxel lies where its patch's function grows, seen from its point.
 bool outsideOfPatch(const FittedSurface& surface, const FootLeaf& leaf, int v);
