@@ -95,20 +95,17 @@ CsgMade<CsgLeaf> combineVoxels(const CsgRule& rule, const CsgPiece<CsgLeaf>& a, 
     return tileIfUniform(std::move(leaf));
 }
 
-// The leaf times `sign`, where all of it is within the band; else nothing.
+// The leaf times `sign`, where all of it is within the band; else nothing. Looks at the copy, which is at hand, while
+// the source's values come from memory.
 std::unique_ptr<CsgLeaf> copyWithin(const CsgBand& band, const CsgLeaf& source, float sign)
 {
-    const float* values = source.buffer().data();
-    const bool within = sign > 0.0f ? allWithin(values, -band.interior, band.exterior)
-                                    : allWithin(values, -band.exterior, band.interior);
-    if (!within) return nullptr;
     auto leaf = emptyLeaf(source.origin());
     float* out = leaf->buffer().data();
-    if (sign > 0.0f) {
-        std::copy_n(values, kVoxels, out);
-    } else {
-        for (int i = 0; i < kVoxels; ++i) out[i] = -values[i];
+    std::copy_n(source.buffer().data(), kVoxels, out);
+    if (sign < 0.0f) {
+        for (int i = 0; i < kVoxels; ++i) out[i] = -out[i];
     }
+    if (!allWithin(out, -band.interior, band.exterior)) return nullptr;
     leaf->setValueMask(source.getValueMask());
     return leaf;
 }

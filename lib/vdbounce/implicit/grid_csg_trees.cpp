@@ -3,7 +3,9 @@
 
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/implicit/grid_csg_leaf.h"
+#include "vdbounce/implicit/grid_csg_node.h"
 
+#include <cstdint>
 #include <set>
 #include <type_traits>
 #include <vector>
@@ -27,6 +29,28 @@ template <class Node> CsgPiece<typename Node::ChildNodeType> entryOf(const CsgPi
     const auto& entry = piece.node->getTable()[n];
     if (piece.node->isChildMaskOn(n)) return {entry.getChild(), 0.0f, false};
     return {nullptr, entry.getValue(), piece.node->getValueMask().isOn(n)};
+}
+
+template <class Node> bool hasNode(const CsgPiece<Node>& piece, Index n)
+{
+    return piece.node != nullptr && piece.node->isChildMaskOn(n);
+}
+
+// Entries whose masks are a word.
+constexpr Index kWordEntries = 64;
+
+// True where a word's entries are inactive tiles of one value, as most are: they are compared many at once.
+template <class Node> bool isOneTile(const CsgPiece<Node>& piece, Index word)
+{
+    using Word = openvdb::Index64;
+    if (piece.node == nullptr) return true;
+    if (piece.node->getChildMask().template getWord<Word>(word) != 0) return false;
+    if (piece.node->getValueMask().template getWord<Word>(word) != 0) return false;
+    const auto* entries = piece.node->getTable() + word * kWordEntries;
+    const float value = entries[0].getValue();
+    std::int32_t other = 0;
+    for (Index n = 1; n < kWordEntries; ++n) other |= std::int32_t(entries[n].getValue() != value);
+    return other == 0;
 }
 
 class TreeCombination {
@@ -55,71 +79,37 @@ private:
         using Child = typename Node::ChildNodeType;
         constexpr bool kOfLeaves = std::is_same_v<Child, CsgLeaf>;
         throwIfStopped(progress_);
-        const CsgMade<Child> first = tileAt(a, b, 0);
-        auto node = std::make_unique<Node>(origin, first.value, false);
-        const std::vector<Index> withNodes = combineEntries(a, b, first.value, *node);
+        NodeInMaking<Node> node(origin, combineTiles(rule_, entryOf(a, 0), entryOf(b, 0)).value);
+        const std::vector<Index> withNodes = combineEntries(a, b, node);
         std::vector<CsgMade<Child>> made(withNodes.size());
         forEachIndex(withNodes.size(), kOfLeaves ? kLeavesPerTask : 1, [&](std::size_t i) {
             const Index n = withNodes[i];
-            made[i] = combine(entryOf(a, n), entryOf(b, n), node->offsetToGlobalCoord(n));
+            Coord corner;
+            Node::offsetToLocalCoord(n, corner);
+            made[i] = combine(entryOf(a, n), entryOf(b, n), origin + (corner << std::size_t(Child::TOTAL)));
         });
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            if (made[i].node != nullptr) {
-                node->addChild(made[i].node.release());
-            } else {
-                node->addTile(withNodes[i], made[i].value, made[i].active);
-            }
-        }
-        return tileIfUniform(std::move(node));
+        for (std::size_t i = 0; i < made.size(); ++i) node.set(withNodes[i], std::move(made[i]));
+        return node.finished();
     }
 
-    // What two tiles make of an entry; where one of them is none, something to fill a node with.
+    // Combines the entries that are tiles in both into `node`; returns the others.
     template <class Node>
-    CsgMade<typename Node::ChildNodeType> tileAt(const CsgPiece<Node>& a, const CsgPiece<Node>& b, Index n) const
+    std::vector<Index> combineEntries(const CsgPiece<Node>& a, const CsgPiece<Node>& b, NodeInMaking<Node>& node) const
     {
-        return combineTiles(rule_, entryOf(a, n), entryOf(b, n));
-    }
-
-    // Combines the entries that are tiles in both into `node`, which is filled with `filled`; returns the others. Most
-    // tiles are as the one before.
-    template <class Node>
-    std::vector<Index> combineEntries(const CsgPiece<Node>& a, const CsgPiece<Node>& b, float filled, Node& node) const
-    {
-        using Child = typename Node::ChildNodeType;
         std::vector<Index> withNodes;
-        CsgPiece<Child> lastA;
-        CsgPiece<Child> lastB;
-        CsgMade<Child> tile = combineTiles(rule_, lastA, lastB);
-        for (Index n = 0; n < Node::NUM_VALUES; ++n) {
-            const CsgPiece<Child> entryA = entryOf(a, n);
-            const CsgPiece<Child> entryB = entryOf(b, n);
-            if (entryA.node != nullptr || entryB.node != nullptr) {
-                withNodes.push_back(n);
-                continue;
+        for (Index word = 0; word < Node::NUM_VALUES / kWordEntries; ++word) {
+            const Index first = word * kWordEntries;
+            const bool same = isOneTile(a, word) && isOneTile(b, word);
+            if (same && node.holds(combineTiles(rule_, entryOf(a, first), entryOf(b, first)))) continue;
+            for (Index n = first; n < first + kWordEntries; ++n) {
+                if (hasNode(a, n) || hasNode(b, n)) {
+                    withNodes.push_back(n);
+                } else {
+                    node.set(n, combineTiles(rule_, entryOf(a, n), entryOf(b, n)));
+                }
             }
-            if (!sameTile(entryA, lastA) || !sameTile(entryB, lastB)) {
-                tile = combineTiles(rule_, entryA, entryB);
-                lastA = entryA;
-                lastB = entryB;
-            }
-            if (tile.value != filled || tile.active) node.addTile(n, tile.value, tile.active);
         }
         return withNodes;
-    }
-
-    template <class Child> static bool sameTile(const CsgPiece<Child>& a, const CsgPiece<Child>& b)
-    {
-        return a.value == b.value && a.active == b.active;
-    }
-
-    template <class Node> static CsgMade<Node> tileIfUniform(std::unique_ptr<Node> node)
-    {
-        if (!node->getChildMask().isOff() || !node->getValueMask().isOff()) return {std::move(node), 0.0f, false};
-        const float value = node->getTable()[0].getValue();
-        for (Index n = 1; n < Node::NUM_VALUES; ++n) {
-            if (node->getTable()[n].getValue() != value) return {std::move(node), 0.0f, false};
-        }
-        return {nullptr, value, false};
     }
 
     const CsgRule& rule_;
