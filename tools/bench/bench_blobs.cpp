@@ -84,18 +84,16 @@ void benchSpheres(const ParticleSet& set, const MakeBenchOptions& options, Progr
 {
     LevelSetGrid ours;
     LevelSetGrid theirs;
-    onOneAndAllThreads([&](const std::string& threads) {
-        std::vector<double> ourSeconds;
-        std::vector<double> theirSeconds;
-        for (int r = 0; r < options.repetitions; ++r) {
-            throwIfStopped(progress);
-            ours = theirs = LevelSetGrid(); // or the ones before would be freed on the clock
-            ourSeconds.push_back(seconds([&] { ours = blobs(set.particles, optionsFor(BlobKernel::Sphere)); }));
-            theirSeconds.push_back(seconds([&] { theirs = particlesToLevelSet(set.particles, kVoxel, kBandVx); }));
-        }
-        cases.push_back({"spheres " + set.name + ", " + threads, "s", median(ourSeconds),
-                         Peer{kParticlesToLevelSet, median(theirSeconds)}});
-    });
+    std::vector<double> ourSeconds;
+    std::vector<double> theirSeconds;
+    for (int r = 0; r < options.repetitions; ++r) {
+        throwIfStopped(progress);
+        ours = theirs = LevelSetGrid(); // or the ones before would be freed on the clock
+        ourSeconds.push_back(seconds([&] { ours = blobs(set.particles, optionsFor(BlobKernel::Sphere)); }));
+        theirSeconds.push_back(seconds([&] { theirs = particlesToLevelSet(set.particles, kVoxel, kBandVx); }));
+    }
+    cases.push_back({"spheres " + set.name + ", " + threadsText(), "s", median(ourSeconds),
+                     Peer{kParticlesToLevelSet, median(theirSeconds)}});
     const auto count = [](const LevelSetGrid& grid) { return double(summarize(grid).activeVoxels); };
     cases.push_back(
         {"spheres " + set.name + ", active voxels", "voxels", count(ours), Peer{kParticlesToLevelSet, count(theirs)}});
@@ -110,14 +108,12 @@ void benchKernel(const ParticleSet& set, BlobKernel kernel, const MakeBenchOptio
                  Cases& cases)
 {
     const std::string name = kernel == BlobKernel::Gaussian ? "Gaussian " : "compact ";
-    onOneAndAllThreads([&](const std::string& threads) {
-        std::vector<double> times;
-        for (int r = 0; r < options.repetitions; ++r) {
-            LevelSetGrid grid;
-            times.push_back(seconds([&] { grid = blobs(set.particles, optionsFor(kernel), progress); }));
-        }
-        cases.push_back({name + set.name + ", " + threads, "s", median(times), std::nullopt});
-    });
+    std::vector<double> times;
+    for (int r = 0; r < options.repetitions; ++r) {
+        LevelSetGrid grid;
+        times.push_back(seconds([&] { grid = blobs(set.particles, optionsFor(kernel), progress); }));
+    }
+    cases.push_back({name + set.name + ", " + threadsText(), "s", median(times), std::nullopt});
 }
 
 } // namespace
@@ -125,17 +121,16 @@ void benchKernel(const ParticleSet& set, BlobKernel kernel, const MakeBenchOptio
 Cases benchBlobs(const MakeBenchOptions& options, Progress& progress)
 {
     Cases cases;
-    for (double radiusVx : {1.0, 2.0, 5.0}) {
-        for (const auto& make : {evenly, inClusters}) {
-            ParticleSet set = make(radiusVx);
-            char text[32];
-            std::snprintf(text, sizeof(text), "%g voxels", radiusVx);
-            set.name = countText(kParticles) + " particles " + set.name + text;
-            benchSpheres(set, options, progress, cases);
-            for (BlobKernel kernel : {BlobKernel::Gaussian, BlobKernel::Compact})
-                benchKernel(set, kernel, options, progress, cases);
-        }
-    }
+    const auto measure = [&](ParticleSet set, double radiusVx) {
+        char text[32];
+        std::snprintf(text, sizeof(text), "%g voxels", radiusVx);
+        set.name = countText(kParticles) + " particles " + set.name + text;
+        benchSpheres(set, options, progress, cases);
+        for (BlobKernel kernel : {BlobKernel::Gaussian, BlobKernel::Compact})
+            benchKernel(set, kernel, options, progress, cases);
+    };
+    for (double radiusVx : {1.0, 2.0, 5.0}) measure(evenly(radiusVx), radiusVx);
+    measure(inClusters(2.0), 2.0);
     return cases;
 }
 
