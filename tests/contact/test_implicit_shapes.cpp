@@ -41,6 +41,30 @@ std::vector<std::pair<const char*, FieldPtr>> forms()
             {"intersection", csg(CsgOperation::Intersection, {brick, ball})}};
 }
 
+// Half of space under a floor that rises, which counts how often it is asked.
+class RisingFloor final : public ImplicitField {
+public:
+    double phi(const Vec3d& world, double time) const override
+    {
+        ++lookups;
+        return world.y() - kSpeed * time;
+    }
+    FieldSample sample(const Vec3d& world, double time) const override { return {phi(world, time), Vec3d::UnitY()}; }
+    void phiInRow(const Vec3d& from, const Vec3d& step, int count, double time, double* out) const override
+    {
+        for (int i = 0; i < count; ++i) out[i] = phi(from + double(i) * step, time);
+    }
+    Box box() const override { return {Vec3d::Constant(-1e300), Vec3d::Constant(1e300)}; }
+    double thinnestWall() const override { return 0.0; } // so that every path is searched
+    double resolution() const override { return 1e-3; }
+    bool still() const override { return false; }
+    Vec3d velocity(const Vec3d&, double) const override { return {0, kSpeed, 0}; }
+    double reach(double begin, double end) const override { return kSpeed * (end - begin); }
+
+    static constexpr double kSpeed = 2.0;
+    mutable int lookups = 0;
+};
+
 } // namespace
 
 TEST_CASE("a path finds the first point of a shape by formula at any speed")
@@ -122,6 +146,24 @@ TEST_CASE("a particle bounces in a hollow sphere for ever, with all its energy a
     // Chords of a circle all pass the centre at the same distance; a bounce may turn one by what a step moves.
     CHECK(nearest == Approx(0.5).margin(0.01));
     CHECK(tally.contacts > 20);
+}
+
+TEST_CASE("the search on the way of a particle at rest ends soon before a surface that moves")
+{
+    const auto floor = std::make_shared<RisingFloor>();
+    const ColliderSet set({{"floor", FieldPtr(floor)}});
+    const PlacedColliders colliders(set, 0.0, 0.01);
+    for (const double above : {1e-12, 1e-6, 1e-3, 0.015, 0.1}) {
+        for (const Vec3d& way :
+             {Vec3d(0, 0, 0), Vec3d(1e-15, 0, 0), Vec3d(0, 1e-9, 0), Vec3d(0, -1e-3, 0), Vec3d(0, 3, 0)}) {
+            const Vec3d from(0, above, 0);
+            floor->lookups = 0;
+            const PathHit hit = sweepPath(colliders, from, from + way, 0.0, Sweep::Always);
+            INFO(above << " above, way " << way.transpose());
+            CHECK(hit.hit == (above + way.y() < 0.02 && above < 0.02 - way.y()));
+            CHECK(floor->lookups < 100);
+        }
+    }
 }
 
 TEST_CASE("a particle that rests on a slab falls through a hole that comes along")

@@ -45,7 +45,11 @@ std::vector<std::pair<const char*, FieldPtr>> someOfAll()
         {"nested", csg(CsgOperation::Subtraction, {csg(CsgOperation::Union, {ball(), ring()}), complement(brick())})},
         {"with a level set", csg(CsgOperation::Subtraction, {brick(), asField(Shape(levelSetBall))})},
         {"with the inside of a level set", csg(CsgOperation::Complement, {asField(Shape(levelSetBall))})},
-        {"with a moving hole", csg(CsgOperation::Subtraction, {brick(), asField(Shape(ball()), turning)})}};
+        {"with a moving hole", csg(CsgOperation::Subtraction, {brick(), asField(Shape(ball()), turning)})},
+        {"blended with a moving one",
+         csg(CsgOperation::Union, {brick(), asField(Shape(ring()), turning), ball()}, 0.3)},
+        {"less a moving one, blended",
+         csg(CsgOperation::Subtraction, {brick(), asField(Shape(ring()), turning)}, 0.3)}};
 }
 
 } // namespace
@@ -175,6 +179,30 @@ TEST_CASE("the surface of CSG moves as the operand whose surface it is")
     CHECK(field->phi(Vec3d(0.3, 0.5, 0), 0.3) == Approx(0.0).margin(1e-12)); // where the hole's floor has come to
     CHECK(field->reach(0.0, 0.1) == Approx(0.1));
     CHECK(csg(CsgOperation::Union, {ball(), brick()})->still());
+}
+
+// Or particles that rest on it would sink in.
+TEST_CASE("along its gradient the surface of CSG is as fast as phi falls, where edges are rounded too")
+{
+    constexpr double kShortly = 1e-6;
+    VDBOUNCE_RANDOM(random);
+    for (const auto& [name, field] : someOfAll()) {
+        int useful = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3d p = random.in(kAround);
+            const double time = random.uniform(0, 1);
+            const double phi = field->phi(p, time);
+            const double before = (field->phi(p, time - kShortly) - phi) / kShortly;
+            const double after = (phi - field->phi(p, time + kShortly)) / kShortly;
+            if (std::abs(before - after) > 1e-3) continue; // a kink
+            ++useful;
+            INFO(name << " at " << p.transpose() << ", time " << time);
+            const double falling = field->velocity(p, time).dot(field->sample(p, time).gradient);
+            REQUIRE(falling == Approx(0.5 * (before + after)).margin(2e-3));
+        }
+        INFO(name);
+        CHECK(useful > 1800);
+    }
 }
 
 TEST_CASE("CSG of too few operands, or with a blend that is no width, is refused")

@@ -17,6 +17,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Pose Placement::between(double share) const
 {
     if (!moves || share >= 1.0) return end;
+    const bool stays = begin.rotation == end.rotation && begin.translation == end.translation; // what only deforms
+    if (stays) return end;
     if (share <= 0.0) return begin;
     const Eigen::Quaterniond from(begin.rotation);
     const Mat3d rotation = from.slerp(share, Eigen::Quaterniond(end.rotation)).toRotationMatrix();

@@ -12,6 +12,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const Box kEverywhere{Vec3d::Constant(-kInfinity), Vec3d::Constant(kInfinity)};
 
+// Of a rounded edge: where operands all but cancel, there is no direction in which the surface moves.
+constexpr double kSmallestGradient = 1e-3;
+
 } // namespace
 
 CsgField::CsgField(CsgOperation operation, std::vector<std::shared_ptr<const ImplicitField>> operands, double blend)
@@ -48,18 +51,26 @@ FieldSample CsgField::sample(const Vec3d& world, double time) const
     return result;
 }
 
+// How fast phi falls at a place that rests is a weighted sum as the gradient is; how fast the surface goes along itself
+// is one's choice where it is rounded, and here a mean of what the operands do.
 Vec3d CsgField::velocity(const Vec3d& world, double time) const
 {
+    FieldSample here = operands_[0]->sample(world, time);
     Vec3d result = operands_[0]->velocity(world, time);
     if (operation_ == CsgOperation::Complement) return result;
-    double there = operands_[0]->phi(world, time);
+    double falling = result.dot(here.gradient);
     for (std::size_t i = 1; i < operands_.size(); ++i) {
-        const double other = operands_[i]->phi(world, time);
-        const CsgWeights weights = combinationWeights(operation_, there, other, blend_);
-        result = std::abs(weights.a) * result + std::abs(weights.b) * operands_[i]->velocity(world, time);
-        there = combine(operation_, there, other, blend_);
+        const FieldSample other = operands_[i]->sample(world, time);
+        const Vec3d otherVelocity = operands_[i]->velocity(world, time);
+        const CsgWeights weights = combinationWeights(operation_, here.phi, other.phi, blend_);
+        result = std::abs(weights.a) * result + std::abs(weights.b) * otherVelocity;
+        falling = weights.a * falling + weights.b * otherVelocity.dot(other.gradient);
+        here.gradient = weights.a * here.gradient + weights.b * other.gradient;
+        here.phi = combine(operation_, here.phi, other.phi, blend_);
     }
-    return result;
+    const double squared = here.gradient.squaredNorm();
+    if (!(squared > kSmallestGradient * kSmallestGradient)) return result;
+    return result + (falling - result.dot(here.gradient)) / squared * here.gradient;
 }
 
 void CsgField::phiInRow(const Vec3d& from, const Vec3d& step, int count, double time, double* out) const
