@@ -243,3 +243,15 @@ TEST_CASE("the Lipschitz bound holds between any two points of the box")
         }
     }
 }
+
+// Beside the sides of the box the values jump to the background, which no lookup reads.
+TEST_CASE("the Lipschitz bound of a surface that its box cuts off does not count what is beyond the box")
+{
+    const DistanceField cut(levelSet(denseGrid(halfSpace(Vec3d(0.6, 0.8, 0.0)), uniformTransform(0.1), 24)));
+    REQUIRE(cut.clipped());
+    CHECK(cut.lipschitz() < std::sqrt(3.0));
+    FieldOptions cubic;
+    cubic.lookup = Lookup::Cubic; // reads them
+    const DistanceField smooth(levelSet(denseGrid(halfSpace(Vec3d(0.6, 0.8, 0.0)), uniformTransform(0.1), 24)), cubic);
+    CHECK(smooth.lipschitz() > 5.0);
+}

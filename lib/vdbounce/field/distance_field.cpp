@@ -31,7 +31,7 @@ double shortestWayAcross(const LinearTransform& transform)
 
 DistanceField::DistanceField(const LevelSetGrid& grid, const FieldOptions& options) : options_(options)
 {
-    FieldParts parts = buildFieldParts(grid, options.storage);
+    FieldParts parts = buildFieldParts(grid, options.storage, options.lookup == Lookup::Cubic ? 1 : 0);
     transform_ = parts.transform;
     blocks_ = std::move(parts.blocks);
     indexBox_ = parts.indexBox;

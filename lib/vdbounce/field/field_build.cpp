@@ -139,8 +139,23 @@ float largestMagnitude(const FloatGrid& grid)
     return largest;
 }
 
+// A block's cells in which lookups within the box read; at the sides of a box that cuts the surface off phi jumps.
+// Where the box is flat lookups read the cells to both sides of it.
+CellRange cellsRead(const Vec3i& origin, const Box& box, int beyondBox)
+{
+    CellRange cells;
+    if (box.empty()) return cells;
+    const Vec3i first = origin - Vec3i::Constant(BlockLayout::kHaloBelow);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int beyond = box.min[axis] == box.max[axis] ? 1 : beyondBox;
+        cells.begin[axis] = std::max(cells.begin[axis], int(box.min[axis]) - beyond - first[axis]);
+        cells.end[axis] = std::min(cells.end[axis], int(box.max[axis]) + beyond - first[axis]);
+    }
+    return cells;
+}
+
 // Fills the blocks, and finds out what must be known of every value while it is at hand.
-void fillBlocks(const FloatGrid& grid, Storage storage, FieldParts& parts)
+void fillBlocks(const FloatGrid& grid, Storage storage, int beyondBox, FieldParts& parts)
 {
     const std::vector<Vec3i>& origins = parts.blocks.origins();
     BlockValues& kept = parts.blocks.valuesForWriting();
@@ -157,7 +172,8 @@ void fillBlocks(const FloatGrid& grid, Storage storage, FieldParts& parts)
             const float error = kept.encode(i, values);
             if (storage != Storage::Float) kept.decode(i, values);
             errors[task] = std::max(errors[task], error);
-            steepest[task] = steepestCell(values, parts.transform, steepest[task]);
+            steepest[task] =
+                steepestCell(values, parts.transform, steepest[task], cellsRead(origins[i], parts.indexBox, beyondBox));
             leaves[i] = SurfaceTree::leafOf(values, origins[i], parts.indexBox, parts.transform, error);
         }
     });
@@ -180,7 +196,7 @@ float interiorClamp(const FloatGrid& grid)
 
 } // namespace
 
-FieldParts buildFieldParts(const LevelSetGrid& handle, Storage storage)
+FieldParts buildFieldParts(const LevelSetGrid& handle, Storage storage, int beyondBox)
 {
     const FloatGrid& grid = toOpenVdb(handle);
     FieldParts parts;
@@ -196,7 +212,7 @@ FieldParts buildFieldParts(const LevelSetGrid& handle, Storage storage)
     setTiles(grid, parts.blocks);
     parts.interior = interiorClamp(grid);
     addTilesThatNeedBlocks(grid, parts.blocks.link(), parts.blocks);
-    fillBlocks(grid, storage, parts);
+    fillBlocks(grid, storage, beyondBox, parts);
     return parts;
 }
 

@@ -16,12 +16,14 @@ struct FieldParts {
     Box indexBox; ///< of the active voxels' centres; empty when there are none
     float background = 0.0f;
     SurfaceTree surface;
-    double lipschitz = 1.0;    ///< the largest length of the trilinear interpolant's gradient, world space; at least 1
+    /// The largest length of the trilinear interpolant's gradient where lookups read, world space; at least 1.
+    double lipschitz = 1.0;
     float storageError = 0.0f; ///< largest difference between a voxel and what is kept of it
     float interior = 0.0f;     ///< what inactive voxels inside hold is -interior or less; infinite where there are none
 };
 
-/// Copies the grid's voxels into blocks, in parallel. Throws InputError for values that are not finite.
-FieldParts buildFieldParts(const LevelSetGrid& grid, Storage storage);
+/// Copies the grid's voxels into blocks, in parallel. Lookups within the index box read `beyondBox` voxels beyond it.
+/// Throws InputError for values that are not finite.
+FieldParts buildFieldParts(const LevelSetGrid& grid, Storage storage, int beyondBox);
 
 } // namespace vdbounce

@@ -50,10 +50,11 @@ struct RowChanges {
 
 } // namespace
 
-double steepestCell(const float (&block)[BlockLayout::kSize], const LinearTransform& transform, double steepest)
+double steepestCell(const float (&block)[BlockLayout::kSize], const LinearTransform& transform, double steepest,
+                    const CellRange& range)
 {
-    for (int x = 0; x < kCells; ++x) {
-        for (int y = 0; y < kCells; ++y) {
+    for (int x = range.begin.x(); x < range.end.x(); ++x) {
+        for (int y = range.begin.y(); y < range.end.y(); ++y) {
             const RowChanges changes(block + x * BlockLayout::kStrideX + y * BlockLayout::kStrideY);
             const auto largest = [](const float(&values)[kCells]) {
                 return double(*std::max_element(values, values + kCells));
@@ -61,7 +62,7 @@ double steepestCell(const float (&block)[BlockLayout::kSize], const LinearTransf
             // Most rows are less steep, all cells together, than some cell before was.
             if (steepestOf({largest(changes.x), largest(changes.y), largest(changes.z)}, transform) <= steepest)
                 continue;
-            for (int z = 0; z < kCells; ++z) {
+            for (int z = range.begin.z(); z < range.end.z(); ++z) {
                 const Vec3d change(changes.x[z], changes.y[z], changes.z[z]);
                 steepest = std::max(steepest, steepestOf(change, transform));
             }
