@@ -94,4 +94,7 @@ TEST_CASE("blobs counts what makes no surface and refuses what cannot be made")
     refused("--voxel 0.1 --radius 1 --threshold 3", 3); // nothing is so dense
     refused("--voxel 0.1 --radius 1e12", 3);
     refused("--voxel 0.1 --radius 1 --band 0.2vx", 2);
+    // Soon, and not when memory is out.
+    for (const char* kernel : {"sphere", "gaussian", "compact"})
+        refused(std::string("--voxel 1e-4 --radius 10 --max-memory 50M --kernel ") + kernel, 2);
 }

@@ -75,5 +75,7 @@ TEST_CASE("redistance refuses what it cannot do")
     refused(" -o " + (folder / "o.vdb") + " --band 3vx --interior 2vx", 2, "--band excludes");
     refused(" -o " + (folder / "o.vdb") + " --band 0.5vx", 2, "out of range");
     refused(" -o " + (folder / "o.vdb") + " --iso 9", 3, "never takes the value 9");
+    refused(" -o " + (folder / "o.vdb") + " --band 50vx --max-memory 10M", 2, "more memory than is allowed");
+    refused(" -o " + (folder / "o.vdb") + " --band 900000vx", 2, "more memory than is allowed");
     refused(" -o " + (folder / "o.vdb") + " --inside left", 2, "is not a choice");
 }

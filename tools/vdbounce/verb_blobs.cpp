@@ -97,6 +97,8 @@ void addBlobs(CLI::App& app, const CommonOptions& common)
                          ->capture_default_str()
                          ->type_name("A");
     addLength(*verb, "--band", arguments->band, "Half width of the narrow band on both sides (default 3vx)");
+    addBytes(*verb, "--max-memory", options.maxMemory,
+             "Refuse what would need more (default three quarters of the machine's)");
     verb->add_option("--name", options.gridName, "Name of the grid")->capture_default_str();
     verb->add_flag("--half", arguments->half, "Store values as 16-bit floats");
     verb->footer(

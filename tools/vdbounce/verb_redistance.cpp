@@ -96,6 +96,8 @@ void addRedistance(CLI::App& app, const CommonOptions& common)
               "a voxel's longest side)");
     addLength(*verb, "--exterior", a->options.exterior, "Half width outside");
     addLength(*verb, "--interior", a->options.interior, "Half width inside");
+    addBytes(*verb, "--max-memory", a->options.maxMemory,
+             "Refuse what would need more (default three quarters of the machine's)");
     verb->add_option("--name", a->options.name, "Name of the grid (default: as it was)");
     verb->add_flag("--half", a->half, "Store values as 16-bit floats");
     verb->footer("Example:\n  vdbounce redistance smoke.vdb -o smoke_surface.vdb --iso 0.2 --band 5vx");

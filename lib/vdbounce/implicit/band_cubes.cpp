@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/implicit/band_cubes.h"
 
-#include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/io/number_text.h"
+#include "vdbounce/implicit/leaf_limit.h"
 
 #include <cstdint>
 
@@ -93,12 +92,7 @@ BandCubes findBandCubes(const ImplicitField& field, const LinearTransform& trans
             if (places[i] == Place::Inside) found.inside.push_back(cubes[i]);
             if (places[i] == Place::Band) band.push_back(cubes[i]);
         }
-        if (band.size() > options.maxLeaves) {
-            throw UsageError("the band",
-                             "has more than " + numberText(double(options.maxLeaves)) +
-                                 " leaves, which need more memory than is allowed",
-                             "use larger voxels, a thinner band, or --max-memory");
-        }
+        requireLeaves(band.size(), options.maxLeaves);
         if (band.empty() || band.front().side == kLeafSide) {
             found.leaves = std::move(band);
             return found;

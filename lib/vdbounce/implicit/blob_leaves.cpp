@@ -2,6 +2,7 @@
 #include "vdbounce/implicit/blob_leaves.h"
 
 #include "vdbounce/field/grid_assembly.h"
+#include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/implicit/leaf_tiles.h"
 #include "vdbounce/io/vdb_archive.h"
 
@@ -91,7 +92,10 @@ struct BlobLeaves::Parts {
     std::vector<LeafCube> inside;
 };
 
-BlobLeaves::BlobLeaves() : parts_(std::make_unique<Parts>()) { initializeOpenVdb(); }
+BlobLeaves::BlobLeaves(std::uint64_t maxLeaves) : parts_(std::make_unique<Parts>()), maxLeaves_(maxLeaves)
+{
+    initializeOpenVdb();
+}
 
 BlobLeaves::~BlobLeaves() = default;
 
@@ -101,6 +105,7 @@ void BlobLeaves::add(const Vec3i& leaf, const float* values)
     target->allocate();
     std::copy_n(values, Leaf::SIZE, target->buffer().data());
     const std::lock_guard<std::mutex> lock(parts_->adding);
+    requireLeaves(parts_->leaves.size() + 1, maxLeaves_);
     parts_->leaves.push_back(std::move(target));
 }
 

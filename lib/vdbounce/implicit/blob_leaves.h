@@ -4,6 +4,7 @@
 #include "vdbounce/implicit/ball_descent.h"
 #include "vdbounce/io/scalar_grid.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -13,7 +14,8 @@ namespace vdbounce {
 /// surface.
 class BlobLeaves {
 public:
-    BlobLeaves();
+    /// Refuses more leaves than that with UsageError.
+    explicit BlobLeaves(std::uint64_t maxLeaves);
     ~BlobLeaves();
     BlobLeaves(const BlobLeaves&) = delete;
     BlobLeaves& operator=(const BlobLeaves&) = delete;
@@ -31,6 +33,7 @@ public:
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
+    std::uint64_t maxLeaves_;
 };
 
 } // namespace vdbounce

@@ -15,8 +15,10 @@ namespace {
 // So many voxels beyond a leaf its neighbours need it, to see how the surface curves.
 constexpr double kHaloVx = 2.0;
 
-// Bounds are asked for at cubes of this level and below: larger ones hold too much for one sign.
+// Bounds are asked for at cubes of this level and below: larger ones hold too much for one sign, unless balls are few
+// and so large that whole cubes are on one side of them.
 constexpr int kBoundedLevel = 2;
+constexpr std::size_t kFewBalls = 64;
 
 // Bounds are asked for with cells whose diagonal is less than this multiple of the largest radius.
 constexpr double kLargestCell = 1.0;
@@ -82,7 +84,7 @@ public:
 
     bool settled(const LeafCube& cube, const Ball* balls, std::size_t count) override
     {
-        if (cube.level > kBoundedLevel) return false;
+        if (cube.level > kBoundedLevel && count > kFewBalls) return false;
         Box box = cube.voxels();
         box.min -= Vec3d::Constant(kHaloVx);
         box.max += Vec3d::Constant(kHaloVx);
@@ -113,12 +115,13 @@ private:
 
 } // namespace
 
-std::optional<ScalarGrid> blobImplicit(BallList balls, const BlobSurface& surface, double voxelSize, Progress& progress)
+std::optional<ScalarGrid> blobImplicit(BallList balls, const BlobSurface& surface, double voxelSize,
+                                       std::uint64_t maxLeaves, Progress& progress)
 {
     const ImplicitScale scale(surface, meanRadius(balls) * voxelSize);
     double largest = 0.0;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
-    BlobLeaves leaves;
+    BlobLeaves leaves(maxLeaves);
     BlobWork work(surface, largest, scale, leaves);
     const double halo = kHaloVx * std::sqrt(3.0);
     visitLeaves(std::move(balls), {surface.reachPerRadius(), halo}, work, progress);

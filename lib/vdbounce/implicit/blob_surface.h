@@ -6,6 +6,7 @@
 #include "vdbounce/implicit/blob_kernel.h"
 #include "vdbounce/io/scalar_grid.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace vdbounce {
@@ -26,8 +27,8 @@ struct BlobSurface {
 ///
 /// Active leaves hold all voxels up to two from a change of sign; elsewhere inactive tiles and the background tell the
 /// side alone. No sum is evaluated where bounds on it tell the sign of a leaf and of its neighbours. The same bits for
-/// any number of threads. Throws Interrupted.
+/// any number of threads. Throws UsageError for more than `maxLeaves` leaves near it, Interrupted.
 std::optional<ScalarGrid> blobImplicit(BallList balls, const BlobSurface& surface, double voxelSize,
-                                       Progress& progress);
+                                       std::uint64_t maxLeaves, Progress& progress);
 
 } // namespace vdbounce

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/implicit/blob_surface.h"
+#include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/implicit/particle_balls.h"
 #include "vdbounce/implicit/redistance.h"
 #include "vdbounce/implicit/sphere_union.h"
@@ -15,6 +16,8 @@ namespace {
 
 // OpenVDB refuses a scale whose determinant is below 3e-15.
 constexpr double kSmallestVoxel = 1.5e-5;
+
+constexpr double kBytesPerLeaf = 2300.0; // its values, its mask, its place in the tree
 
 void validate(const BlobOptions& options)
 {
@@ -75,17 +78,20 @@ void requireSomething(const ParticleBalls& made, const Particles& particles)
 LevelSetGrid unionOf(BallList balls, const BlobOptions& options, const BlobResult& result, Progress& progress)
 {
     if (result.tooSmall == result.particles) throwNoSurface(result);
-    return sphereUnion(std::move(balls), {options.halfWidthVx, options.voxelSize}, options.gridName, progress);
+    return sphereUnion(std::move(balls), {options.halfWidthVx, options.voxelSize}, options.gridName,
+                       leavesWithin(options.maxMemory, kBytesPerLeaf), progress);
 }
 
 LevelSetGrid blend(BallList balls, const BlobSurface& surface, const BlobOptions& options, const BlobResult& result,
                    Progress& progress)
 {
-    const auto implicit = blobImplicit(std::move(balls), surface, options.voxelSize, progress);
+    const auto implicit = blobImplicit(std::move(balls), surface, options.voxelSize,
+                                       leavesWithin(options.maxMemory, kBytesPerLeaf), progress);
     if (!implicit) throwNoSurface(result);
     RedistanceOptions redistancing;
     redistancing.exterior = redistancing.interior = Length{options.halfWidthVx, true};
     redistancing.name = options.gridName;
+    redistancing.maxMemory = options.maxMemory;
     return redistance(*implicit, redistancing, progress);
 }
 

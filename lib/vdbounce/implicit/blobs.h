@@ -34,6 +34,8 @@ struct BlobOptions {
     /// Gaussian ends nowhere. So F is too small by no more than this part of t for each particle near enough to show at
     /// all. Cost grows with the cube of sqrt(1 - ln cutOff).
     double cutOff = 1e-4;
+
+    std::uint64_t maxMemory = 0; ///< bytes; what needs more is refused; 0: three quarters of the machine's
 };
 
 struct BlobResult {
@@ -59,8 +61,8 @@ struct BlobResult {
 ///
 /// Particles that are not finite or have no radius above zero are left out and counted, as a file of a simulation may
 /// well hold some; those that were already `rejected` likewise, by the same test. Throws UsageError for options out of
-/// range and where neither particles nor options have a radius, InputError where no particle is left or one lies beyond
-/// 2^30 voxels, Interrupted. The same bits for any number of threads.
+/// range, where neither particles nor options have a radius, and for more leaves than maxMemory holds; InputError where
+/// no particle is left or one lies beyond 2^30 voxels, Interrupted. The same bits for any number of threads.
 ///
 /// Cost: see docs/decisions/0008-blobs.md; beside the grid about 100 bytes a particle.
 BlobResult makeBlobs(const Particles& particles, const BlobOptions& options, Progress& progress = Progress::none());

@@ -4,10 +4,12 @@
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/implicit/foot_exchange.h"
 #include "vdbounce/implicit/foot_refinement.h"
+#include "vdbounce/implicit/leaf_limit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace vdbounce {
 namespace {
@@ -18,46 +20,78 @@ constexpr std::size_t kLeavesPerTask = 16;
 // point of the surface; units of the longest side.
 constexpr float kPatchReach = 1.0f;
 
+// From this band on, voxels, the eighths of a leaf reach nearly the same leaves as all of it.
+constexpr double kWideVx = 16.0;
+
 bool comesBefore(const Vec3i& a, const Vec3i& b)
 {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
+void sortOnce(std::vector<Vec3i>& origins)
+{
+    std::sort(origins.begin(), origins.end(), comesBefore);
+    origins.erase(std::unique(origins.begin(), origins.end()), origins.end());
+}
+
+Box joined(Box a, const Box& b)
+{
+    if (!b.empty()) a.add(b);
+    return a;
+}
+
+// Appends the origins of the leaves with a voxel within `voxels` of a box (index space).
+void appendLeaves(const Box& box, const Vec3d& voxels, std::uint64_t maxLeaves, std::vector<Vec3i>& origins)
+{
+    const Vec3d low = ((box.min - voxels).array().ceil() / 8.0).floor();
+    const Vec3d high = ((box.max + voxels).array().floor() / 8.0).floor();
+    requireLeaves(std::uint64_t((high - low + Vec3d::Ones()).prod()), maxLeaves);
+    for (int x = int(low.x()); x <= int(high.x()); ++x) {
+        for (int y = int(low.y()); y <= int(high.y()); ++y) {
+            for (int z = int(low.z()); z <= int(high.z()); ++z) origins.push_back(8 * Vec3i(x, y, z));
+        }
+    }
+}
+
+// The eighths of a leaf that hold patches: the box around their points.
+std::array<Box, 8> eighthsOf(const FittedSurface& surface, const FittedSurface::Leaf& leaf)
+{
+    std::array<Box, 8> boxes;
+    for (std::size_t p = leaf.begin; p < leaf.end; ++p) {
+        const SurfacePatch& patch = surface.patches[p];
+        const Vec3d cell(patch.cell[0], patch.cell[1], patch.cell[2]);
+        const Vec3d at = cell + Vec3d(0.5 + patch.at[0], 0.5 + patch.at[1], 0.5 + patch.at[2]);
+        const int eighth = (patch.cell[0] >> 2 & 1) * 4 + (patch.cell[1] >> 2 & 1) * 2 + (patch.cell[2] >> 2 & 1);
+        boxes[std::size_t(eighth)].add(at);
+    }
+    return boxes;
+}
+
 // Origins of all leaves with a voxel within `reach` of some patch, in lexicographic order.
-std::vector<Vec3i> leavesAround(const FittedSurface& surface, const VoxelMetric& metric, float reach)
+std::vector<Vec3i> leavesAround(const FittedSurface& surface, const VoxelMetric& metric, float reach,
+                                std::uint64_t maxLeaves)
 {
     // As many voxels along each axis as a way of that length can take.
     const Vec3d voxels = double(reach) * metric.toIndex.rowwise().norm();
-    std::vector<std::vector<Vec3i>> around(surface.leaves.size());
-    forEachIndex(surface.leaves.size(), kLeavesPerTask, [&](std::size_t i) {
-        Box boxes[8]; // of the eighths of the leaf
-        for (std::size_t p = surface.leaves[i].begin; p < surface.leaves[i].end; ++p) {
-            const SurfacePatch& patch = surface.patches[p];
-            const Vec3d cell(patch.cell[0], patch.cell[1], patch.cell[2]);
-            const Vec3d at = cell + Vec3d(0.5 + patch.at[0], 0.5 + patch.at[1], 0.5 + patch.at[2]);
-            boxes[(patch.cell[0] >> 2 & 1) * 4 + (patch.cell[1] >> 2 & 1) * 2 + (patch.cell[2] >> 2 & 1)].add(at);
-        }
-        for (const Box& box : boxes) {
-            if (box.empty()) continue;
-            Vec3i low;
-            Vec3i high;
-            for (int a = 0; a < 3; ++a) {
-                low[a] = int(std::ceil(box.min[a] - voxels[a])) >> 3;
-                high[a] = int(std::floor(box.max[a] + voxels[a])) >> 3;
-            }
-            for (int x = low.x(); x <= high.x(); ++x) {
-                for (int y = low.y(); y <= high.y(); ++y) {
-                    for (int z = low.z(); z <= high.z(); ++z) around[i].push_back(8 * Vec3i(x, y, z));
-                }
+    const bool wide = voxels.minCoeff() > kWideVx;
+    std::vector<std::vector<Vec3i>> around(blockCount(surface.leaves.size(), kLeavesPerTask));
+    forEachBlock(surface.leaves.size(), kLeavesPerTask, [&](std::size_t block, IndexRange range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+            std::array<Box, 8> boxes = eighthsOf(surface, surface.leaves[i]);
+            if (wide) boxes = {std::accumulate(boxes.begin() + 1, boxes.end(), boxes[0], joined)};
+            for (const Box& box : boxes) {
+                if (!box.empty()) appendLeaves(box, voxels, maxLeaves, around[block]);
             }
         }
-        std::sort(around[i].begin(), around[i].end(), comesBefore);
-        around[i].erase(std::unique(around[i].begin(), around[i].end()), around[i].end());
+        sortOnce(around[block]); // leaves beside each other have most of them in common
     });
     std::vector<Vec3i> all;
-    for (const auto& some : around) all.insert(all.end(), some.begin(), some.end());
-    std::sort(all.begin(), all.end(), comesBefore);
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    for (auto& some : around) {
+        all.insert(all.end(), some.begin(), some.end());
+        std::vector<Vec3i>().swap(some);
+    }
+    sortOnce(all);
+    requireLeaves(all.size(), maxLeaves);
     return all;
 }
 
@@ -85,9 +119,9 @@ void seed(const FittedSurface& surface, const FittedSurface::Leaf& patches, cons
     }
 }
 
-FootLeaves makeLeaves(const FittedSurface& surface, const VoxelMetric& metric, float reach)
+FootLeaves makeLeaves(const FittedSurface& surface, const VoxelMetric& metric, float reach, std::uint64_t maxLeaves)
 {
-    const std::vector<Vec3i> origins = leavesAround(surface, metric, reach);
+    const std::vector<Vec3i> origins = leavesAround(surface, metric, reach, maxLeaves);
     FootLeaves leaves(origins.size());
     forEachIndex(origins.size(), kLeavesPerTask, [&](std::size_t i) {
         auto leaf = std::make_unique<FootLeaf>();
@@ -146,9 +180,10 @@ template <class Visit> void handOn(FootLeaves& leaves, Progress& progress, const
 
 } // namespace
 
-FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress)
+FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, std::uint64_t maxLeaves,
+                    Progress& progress)
 {
-    FootLeaves leaves = makeLeaves(surface, metric, reach + kPatchReach);
+    FootLeaves leaves = makeLeaves(surface, metric, reach + kPatchReach, maxLeaves);
     handOn(leaves, progress, [&](std::size_t i, bool fresh) {
         VoxelSet changed;
         return exchangeFeet(leaves, i, metric, Margin::ofPoints(), fresh, changed);

@@ -46,6 +46,9 @@ using FootLeaves = std::vector<std::unique_ptr<FootLeaf>>;
 /// the triangles. Where a neighbour has found a closer one, it is taken over, with its patch, and improved again. Where
 /// the surface has kinks or the closest point is beyond the patch, the cells around are searched last. Leaves are swept
 /// in two colours like a chess board's, so that the result does not depend on threads.
-FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, Progress& progress);
+///
+/// Throws UsageError for more than `maxLeaves` leaves, Interrupted.
+FootLeaves findFeet(const FittedSurface& surface, const VoxelMetric& metric, float reach, std::uint64_t maxLeaves,
+                    Progress& progress);
 
 } // namespace vdbounce

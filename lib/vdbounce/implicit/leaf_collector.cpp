@@ -2,6 +2,7 @@
 #include "vdbounce/implicit/leaf_collector.h"
 
 #include "vdbounce/field/grid_assembly.h"
+#include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/implicit/leaf_tiles.h"
 #include "vdbounce/io/vdb_archive.h"
 
@@ -24,7 +25,10 @@ struct LeafCollector::Parts {
     std::vector<LeafCube> inside;
 };
 
-LeafCollector::LeafCollector() : parts_(std::make_unique<Parts>()) { initializeOpenVdb(); }
+LeafCollector::LeafCollector(std::uint64_t maxLeaves) : parts_(std::make_unique<Parts>()), maxLeaves_(maxLeaves)
+{
+    initializeOpenVdb();
+}
 
 LeafCollector::~LeafCollector() = default;
 
@@ -38,6 +42,7 @@ void LeafCollector::add(const Vec3i& leaf, const float* values, const std::uint6
     for (openvdb::Index x = 0; x < 8; ++x) mask.getWord<openvdb::Index64>(x) = active[x];
     target->setValueMask(mask);
     const std::lock_guard<std::mutex> lock(parts_->adding);
+    requireLeaves(parts_->leaves.size() + 1, maxLeaves_);
     parts_->leaves.push_back(std::move(target));
 }
 

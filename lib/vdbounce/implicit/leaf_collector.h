@@ -14,7 +14,8 @@ namespace vdbounce {
 /// Takes the leaves of a level set, from many threads and in any order, and makes a grid of them.
 class LeafCollector {
 public:
-    LeafCollector();
+    /// Refuses more leaves than that with UsageError.
+    explicit LeafCollector(std::uint64_t maxLeaves);
     ~LeafCollector();
     LeafCollector(const LeafCollector&) = delete;
     LeafCollector& operator=(const LeafCollector&) = delete;
@@ -33,6 +34,7 @@ public:
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
+    std::uint64_t maxLeaves_;
 };
 
 } // namespace vdbounce

@@ -5,6 +5,7 @@
 #include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/implicit/distance_assembly.h"
 #include "vdbounce/implicit/foot_points.h"
+#include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/vdb_archive.h"
 
@@ -22,6 +23,9 @@ constexpr double kDefaultBandVx = 3.0;
 // A surface between two voxels must be within the band of both, or a cell would not know it.
 constexpr double kNarrowestVx = 1.0;
 constexpr double kWidestVx = 1e6; // beyond any grid, but short of overflow
+
+// While closest points are sought, and the result.
+constexpr double kBytesPerLeaf = sizeof(FootLeaf) + 2300.0;
 
 double bandVx(const char* name, const std::optional<Length>& given, const openvdb::FloatGrid& grid, double unit)
 {
@@ -75,7 +79,8 @@ LevelSetGrid redistance(const ScalarGrid& implicit, const RedistanceOptions& opt
     const FittedSurface surface = fitSurface(samples, metric, progress);
     if (surface.patches.empty()) throwWithoutSurface(grid, place, options.iso);
     progress.update(1, kStages);
-    FootLeaves feet = findFeet(surface, metric, float(std::max(exterior, interior)), progress);
+    FootLeaves feet = findFeet(surface, metric, float(std::max(exterior, interior)),
+                               leavesWithin(options.maxMemory, kBytesPerLeaf), progress);
     progress.update(2, kStages);
     const DistanceBand band{roundedUp(exterior * metric.unit), roundedUp(interior * metric.unit)};
     LevelSetGrid result = assembleDistances(std::move(feet), surface, samples, metric, band,

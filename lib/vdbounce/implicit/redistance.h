@@ -6,6 +6,7 @@
 #include "vdbounce/io/level_set_grid.h"
 #include "vdbounce/io/scalar_grid.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -24,7 +25,8 @@ struct RedistanceOptions {
     /// voxels. In voxels: of the longest side. Time and memory grow with the voxels that the wider of both holds.
     std::optional<Length> exterior;
     std::optional<Length> interior;
-    std::string name; ///< of the result; empty: the grid's own
+    std::string name;            ///< of the result; empty: the grid's own
+    std::uint64_t maxMemory = 0; ///< bytes; what needs more is refused; 0: three quarters of the machine's
 };
 
 /// Signed distance to the surface on which `implicit` takes the value `iso`: of a level set that lost its unit
@@ -59,7 +61,7 @@ struct RedistanceOptions {
 ///
 /// Throws InputError for a grid without active voxels, whose values are all on one side of `iso` (naming their range),
 /// with an active value that is not a finite number (naming the voxel), or whose transform is not linear; UsageError
-/// for a band below one voxel; Interrupted.
+/// for a band below one voxel and for what needs more than maxMemory; Interrupted.
 LevelSetGrid redistance(const ScalarGrid& implicit, const RedistanceOptions& options = {},
                         Progress& progress = Progress::none());
 

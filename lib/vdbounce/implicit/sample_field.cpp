@@ -2,9 +2,9 @@
 #include "vdbounce/implicit/sample_field.h"
 
 #include "vdbounce/base/error.h"
-#include "vdbounce/base/memory_limit.h"
 #include "vdbounce/field/grid_assembly.h"
 #include "vdbounce/implicit/band_cubes.h"
+#include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/vdb_archive.h"
 
@@ -99,10 +99,9 @@ public:
 
     openvdb::FloatGrid::Ptr run()
     {
-        const std::uint64_t memory = options_.maxMemory > 0 ? options_.maxMemory : defaultMaxMemory();
         const BandCubes cubes = findBandCubes(
             field_, transform_,
-            {exterior_, interior_, options_.time, within_, std::uint64_t(double(memory) / kBytesPerLeaf)});
+            {exterior_, interior_, options_.time, within_, leavesWithin(options_.maxMemory, kBytesPerLeaf)});
         auto grid = makeGrid<openvdb::FloatGrid>(exterior_, transform_, options_.gridName);
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
         ProgressCounter counter(progress_, cubes.leaves.size());

@@ -53,11 +53,12 @@ private:
 
 } // namespace
 
-LevelSetGrid sphereUnion(BallList balls, const SphereBand& band, const std::string& name, Progress& progress)
+LevelSetGrid sphereUnion(BallList balls, const SphereBand& band, const std::string& name, std::uint64_t maxLeaves,
+                         Progress& progress)
 {
     double largest = 0.0;
     for (const Ball& ball : balls) largest = std::max(largest, ball.radius);
-    LeafCollector leaves;
+    LeafCollector leaves(maxLeaves);
     SphereWork work(band, largest, leaves);
     visitLeaves(std::move(balls), {1.0, band.halfWidthVx}, work, progress);
     return leaves.levelSet(float(band.halfWidthVx * band.voxelSize), band.voxelSize, name);

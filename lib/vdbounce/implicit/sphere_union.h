@@ -6,6 +6,7 @@
 #include "vdbounce/implicit/sphere_leaf.h"
 #include "vdbounce/io/level_set_grid.h"
 
+#include <cstdint>
 #include <string>
 
 namespace vdbounce {
@@ -18,7 +19,8 @@ namespace vdbounce {
 /// Active where |phi| is below the half width; beyond it, the half width with the sign, as leaves and tiles. A sphere
 /// that passes between voxel centres leaves positive values and no surface.
 ///
-/// The same bits for any number of threads. Throws Interrupted.
-LevelSetGrid sphereUnion(BallList balls, const SphereBand& band, const std::string& name, Progress& progress);
+/// The same bits for any number of threads. Throws UsageError for more than `maxLeaves` leaves, Interrupted.
+LevelSetGrid sphereUnion(BallList balls, const SphereBand& band, const std::string& name, std::uint64_t maxLeaves,
+                         Progress& progress);
 
 } // namespace vdbounce
