@@ -82,6 +82,7 @@ TEST_CASE("a scene combines its colliders by CSG, and what it combines no longer
     CHECK(scene.last().position[1].y() == Approx(0.35).margin(2e-3));
     const ToolRun plan = scene.run("--explain");
     CHECK(plan.out.find("csg subtraction of 'slab', 'shaft'") != std::string::npos);
+    CHECK(plan.out.find("along every path") != std::string::npos); // what is cut has no least thickness
 }
 
 TEST_CASE("CSG takes level sets and moving colliders")

@@ -55,6 +55,8 @@ std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
     case Sweep::Never: return "sweep: left out (never); fast particles may pass through thin walls";
     case Sweep::Auto: break;
     }
+    if (!(colliders.wallLength() > 0.0))
+        return "sweep: along every path that may touch something (what is cut can be as thin as one likes)";
     return "sweep: only for steps longer than " + numberText(0.5 * colliders.wallLength()) +
            " that may touch something on the way";
 }
