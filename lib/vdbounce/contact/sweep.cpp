@@ -28,6 +28,11 @@ constexpr double kSagittaShare = 1e-3;
 constexpr double kShortestStride = 1e-5;
 constexpr double kFewestStrides = 8.0;
 
+// Tangents from which a convex surface is looked for: each brings at least half of what is left, a few all of it; and
+// the share of the way to it that the last one may still bring.
+constexpr int kMostTangents = 100;
+constexpr double kTangentShare = 1e-14;
+
 // Halvings of a bracket that is a stride long: to a ten-millionth of it.
 constexpr int kHalvings = 24;
 
@@ -135,6 +140,28 @@ std::optional<double> touchOf(const DeformingShape& shape, const RelativePath& p
     }
 }
 
+// A convex surface that rests, along a straight path: Newton's method from the free side stays there, since phi is
+// above its tangents, and where a tangent rises the path has passed. So no wall is too thin to be found.
+std::optional<double> touchOfConvex(const ImplicitField& field, const RelativePath& path, double radius, double end)
+{
+    const auto gap = [&](double t) { return field.phi(path.at(t), 0.0) - radius; };
+    const Vec3d way = path.at(1.0) - path.at(0.0);
+    double free = 0.0;
+    for (int i = 0; i < kMostTangents; ++i) {
+        const FieldSample here = field.sample(path.at(free), 0.0);
+        const double clear = here.phi - radius;
+        const double slope = here.gradient.dot(way);
+        if (clear < 0.0) return 0.0; // only at the beginning
+        if (!(slope < 0.0)) return std::nullopt;
+        const double next = free - clear / slope;
+        if (next > end) return gap(end) < 0.0 ? std::optional(halvedDown(gap, free, end)) : std::nullopt;
+        if (gap(next) < 0.0) return halvedDown(gap, free, next); // by rounding
+        if (!(next - free > kTangentShare * next)) return next;
+        free = next;
+    }
+    return std::nullopt; // it touches without going in
+}
+
 // A surface by formula: strides that cannot reach it (conservative advancement, Mirtich 1996).
 std::optional<double> touchOf(const std::shared_ptr<const ImplicitField>& field, const RelativePath& path,
                               double radius, const Placement& placement, double end)
@@ -144,6 +171,7 @@ std::optional<double> touchOf(const std::shared_ptr<const ImplicitField>& field,
     const double sagitta = kSagittaShare * length;
     const int pieces = path.pieces(sagitta);
     const double moved = field->reach(placement.beginTime, placement.endTime);
+    if (pieces == 1 && moved == 0.0 && field->convex()) return touchOfConvex(*field, path, radius, end);
     double free = 0.0;
     for (int piece = 0; piece < pieces; ++piece) {
         const double begin = end * piece / pieces;

@@ -167,6 +167,13 @@ double CsgField::voxelSize() const
     return smallest;
 }
 
+bool CsgField::convex() const
+{
+    // The larger of convex functions is convex, and rounding it leaves it so.
+    if (operation_ != CsgOperation::Intersection) return false;
+    return std::all_of(operands_.begin(), operands_.end(), [](const auto& operand) { return operand->convex(); });
+}
+
 bool CsgField::wayOutside(const Vec3d& world, double time, Vec3d& way) const
 {
     if (operation_ == CsgOperation::Complement) return false;

@@ -34,6 +34,7 @@ public:
     double clearanceInside(const Vec3d& world, double radius, double time) const override;
     double lipschitz() const override;
     double voxelSize() const override;
+    bool convex() const override;
     bool wayOutside(const Vec3d& world, double time, Vec3d& way) const override;
     bool still() const override;
     Vec3d velocity(const Vec3d& world, double time) const override;

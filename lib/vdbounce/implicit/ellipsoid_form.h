@@ -14,6 +14,8 @@ namespace vdbounce {
 /// one side and are few (More and Sorensen 1983).
 class EllipsoidForm {
 public:
+    static constexpr bool kConvex = true;
+
     EllipsoidForm(const Vec3d& centre, const Vec3d& radii);
 
     double phi(const Vec3d& p) const;

@@ -16,6 +16,8 @@ namespace vdbounce {
 
 class PlaneForm {
 public:
+    static constexpr bool kConvex = true;
+
     PlaneForm(const Vec3d& point, const Vec3d& normal) : normal_(normal.normalized()), offset_(normal_.dot(point)) {}
 
     double phi(const Vec3d& p) const { return normal_.dot(p) - offset_; }
@@ -32,6 +34,8 @@ private:
 
 class BoxForm {
 public:
+    static constexpr bool kConvex = true;
+
     BoxForm(const Vec3d& centre, const Vec3d& half, const Mat3d& rotation)
         : centre_(centre), half_(half), rotation_(rotation)
     {
@@ -72,6 +76,8 @@ private:
 /// edges tell the distance.
 class FrustumForm {
 public:
+    static constexpr bool kConvex = true;
+
     FrustumForm(const Vec3d& from, const Vec3d& to, double radius, double topRadius)
         : from_(from), axis_((to - from).normalized()), height_((to - from).norm()), radius_(radius), top_(topRadius)
     {

@@ -63,6 +63,10 @@ public:
     /// The side of the smallest voxel that it is made of, world units; infinite where it is made of none.
     virtual double voxelSize() const { return std::numeric_limits<double>::infinity(); }
 
+    /// phi is convex at all times: along a straight line it falls, then rises, and stays above its tangents. True of
+    /// signed distances of convex bodies.
+    virtual bool convex() const { return false; }
+
     /// A vector to a place outside, where phi > 0; false where none is known.
     virtual bool wayOutside(const Vec3d& /*world*/, double /*time*/, Vec3d& /*way*/) const { return false; }
 
@@ -78,7 +82,7 @@ public:
 };
 
 /// Makes an ImplicitField of a form that does not move, which has `double phi(p) const`, `Vec3d gradient(p) const`,
-/// `Box box() const` and `double thinnestWall() const`.
+/// `Box box() const`, `double thinnestWall() const` and `static constexpr bool kConvex`.
 template <class Form> class FormField final : public ImplicitField {
 public:
     explicit FormField(const Form& form) : form_(form) {}
@@ -91,6 +95,7 @@ public:
     }
     Box box() const override { return form_.box(); }
     double thinnestWall() const override { return form_.thinnestWall(); }
+    bool convex() const override { return Form::kConvex; }
     const Form& form() const { return form_; }
 
 private:

@@ -22,6 +22,8 @@ inline Vec3d anyPerpendicular(const Vec3d& axis)
 
 class SphereForm {
 public:
+    static constexpr bool kConvex = true;
+
     SphereForm(const Vec3d& centre, double radius) : centre_(centre), radius_(radius) {}
 
     double phi(const Vec3d& p) const { return (p - centre_).norm() - radius_; }
@@ -40,6 +42,8 @@ private:
 
 class CapsuleForm {
 public:
+    static constexpr bool kConvex = true;
+
     CapsuleForm(const Vec3d& from, const Vec3d& to, double radius)
         : from_(from), way_(to - from), squared_(way_.squaredNorm()), radius_(radius)
     {
@@ -78,6 +82,8 @@ private:
 
 class TorusForm {
 public:
+    static constexpr bool kConvex = false;
+
     TorusForm(const Vec3d& centre, const Vec3d& axis, double major, double minor)
         : centre_(centre), axis_(axis.normalized()), major_(major), minor_(minor)
     {
