@@ -21,17 +21,6 @@ constexpr double kRounding = 1e-9;
 
 enum class Place : std::uint8_t { Outside, Band, Inside };
 
-// Half the longest diagonal of a cube of one voxel side, world.
-double halfDiagonal(const LinearTransform& transform)
-{
-    double longest = 0.0;
-    for (int corner = 0; corner < 4; ++corner) {
-        const Vec3d diagonal((corner & 1) != 0 ? -1.0 : 1.0, (corner & 2) != 0 ? -1.0 : 1.0, 1.0);
-        longest = std::max(longest, transform.vectorToWorld(diagonal).norm());
-    }
-    return 0.5 * longest;
-}
-
 int firstSide(const VoxelBox& box)
 {
     const int longest = (box.max - box.min).maxCoeff() + 1;
@@ -71,7 +60,7 @@ std::vector<VoxelCube> eighthsOf(const std::vector<VoxelCube>& cubes, const Voxe
 
 BandCubes findBandCubes(const ImplicitField& field, const LinearTransform& transform, const BandCubesOptions& options)
 {
-    const double half = halfDiagonal(transform);
+    const double half = 0.5 * transform.voxelDiagonal(); // of one voxel, world
     BandCubes found;
     if (options.within.empty()) return found;
     std::vector<VoxelCube> cubes = coverBox(options.within, firstSide(options.within));
