@@ -2,7 +2,9 @@
 #include "vdbounce/build/conversion_estimate.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/base/voxel_limits.h"
 #include "vdbounce/build/band_leaves.h"
+#include "vdbounce/field/option_checks.h"
 #include "vdbounce/io/number_text.h"
 
 #include <Eigen/Geometry>
@@ -30,9 +32,6 @@ constexpr double kSecondsPerTriangle = 3e-7;
 constexpr double kSecondsPerPair = 5e-8;
 constexpr double kSecondsPerRow = 7e-9;
 constexpr double kSecondsPerLeaf = 1.5e-5;
-
-// Voxel coordinates stay within 30 bits.
-constexpr double kFarthestVoxel = 1073741824.0;
 
 double areaOf(const TriangleMesh& mesh)
 {
@@ -94,12 +93,7 @@ void requireConvertible(const TriangleMesh& mesh, const LinearTransform& transfo
             farthest = std::max(farthest, transform.toIndex(mesh.points[p]).cwiseAbs().maxCoeff());
     }
     const double band = std::max(exterior, interior);
-    if (!(farthest + band / voxel < kFarthestVoxel)) {
-        throw UsageError("voxel size " + numberText(voxel),
-                         "is too small for a mesh that reaches " + numberText(std::round(farthest)) +
-                             " voxels from the origin; 1,073,741,824 are the most",
-                         "use larger voxels or move the mesh to the origin");
-    }
+    if (!(farthest + band / voxel < kFarthestVoxel)) refuseFarVoxels(voxel, farthest, "a mesh that", "the mesh");
     const double bytes = estimateConversion(mesh, transform, exterior, interior, beside).bytes;
     if (!(bytes > double(maxMemory))) return;
     throw UsageError("voxel size " + numberText(voxel) + ", band " + numberText(band),

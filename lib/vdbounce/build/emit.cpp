@@ -4,6 +4,7 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
 #include "vdbounce/build/random_numbers.h"
+#include "vdbounce/field/option_checks.h"
 #include "vdbounce/field/surface_cells.h"
 #include "vdbounce/io/number_text.h"
 
@@ -17,19 +18,14 @@ constexpr int kProjectionSteps = 8;   // Newton halves nothing worse than a voxe
 constexpr int kScatterAttempts = 64;  // cells whose level set a point does not reach are few
 constexpr double kOnSurfaceVx = 1e-3; // how close to the level set an emitted point ends, voxels
 
-void requireThat(bool good, const char* name, double value, const char* remedy)
-{
-    if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
-}
-
 template <class PositionOf> Particles emit(const EmitOptions& options, const PositionOf& positionOf)
 {
     if (options.radius)
-        requireThat(*options.radius >= 0.0 && std::isfinite(*options.radius), "--radius", *options.radius,
-                    "give a length, 0 or more");
+        requireInRange(*options.radius >= 0.0 && std::isfinite(*options.radius), "--radius", *options.radius,
+                       "give a length, 0 or more");
     if (options.mass)
-        requireThat(*options.mass > 0.0 && std::isfinite(*options.mass), "--mass", *options.mass,
-                    "give a positive mass");
+        requireInRange(*options.mass > 0.0 && std::isfinite(*options.mass), "--mass", *options.mass,
+                       "give a positive mass");
     Particles particles;
     particles.resize(options.count);
     if (options.velocity) particles.velocity.assign(options.count, *options.velocity);
@@ -69,7 +65,7 @@ Particles emitInBox(const Box& box, const EmitOptions& options)
 
 Particles emitInSphere(const Vec3d& centre, double radius, const EmitOptions& options)
 {
-    requireThat(radius >= 0.0 && std::isfinite(radius), "emit sphere --radius", radius, "give a length, 0 or more");
+    requireInRange(radius >= 0.0 && std::isfinite(radius), "emit sphere --radius", radius, "give a length, 0 or more");
     return emit(options, [&](CounterRandom& random) {
         // A point of the surrounding cube is in the ball with probability 0.52, so this ends.
         for (;;) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/build/mesh_to_level_set.h"
 
-#include "vdbounce/base/error.h"
 #include "vdbounce/base/memory_limit.h"
+#include "vdbounce/base/voxel_limits.h"
 #include "vdbounce/build/conversion_estimate.h"
 #include "vdbounce/build/inside.h"
 #include "vdbounce/build/leaf_union.h"
@@ -11,17 +11,13 @@
 #include "vdbounce/build/sign_choice.h"
 #include "vdbounce/build/space_regions.h"
 #include "vdbounce/field/grid_assembly.h"
-#include "vdbounce/io/number_text.h"
+#include "vdbounce/field/option_checks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace vdbounce {
 namespace {
-
-// OpenVDB refuses a scale whose determinant is below 3e-15.
-constexpr double kSmallestVoxel = 1.5e-5;
 
 // A leaf of numbers and the leaf of the grid that they become; confidences are held where there are doubts only.
 constexpr double kBytesOfClosest = 4200.0;
@@ -29,19 +25,11 @@ constexpr double kBytesOfConfidence = 2200.0;
 
 void validate(const MeshToLevelSetOptions& options)
 {
-    const auto require = [](bool good, const char* name, double value, const char* remedy) {
-        if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
-    };
-    const double voxel = options.transform ? options.transform->smallestVoxelSize() : options.voxelSize;
-    require(voxel > 0.0 && std::isfinite(voxel), "voxel size", voxel, "give a positive length");
-    require(voxel >= kSmallestVoxel, "voxel size", voxel,
-            "OpenVDB's transforms hold no smaller voxels than 1.5e-5; scale the mesh up");
-    require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx,
-            "give at least 1 voxel");
-    require(options.interiorVx >= 1.0 && options.interiorVx < 1e6, "interior band", options.interiorVx,
-            "give at least 1 voxel");
-    require(options.thicknessVx > 0.0 && options.thicknessVx < 1e6, "thickness", options.thicknessVx,
-            "give a positive number of voxels");
+    requireVoxelSize(options.transform ? options.transform->smallestVoxelSize() : options.voxelSize, "mesh");
+    requireBand("exterior band", options.exteriorVx);
+    requireBand("interior band", options.interiorVx);
+    requireInRange(options.thicknessVx > 0.0 && options.thicknessVx < kWidestBandVx, "thickness", options.thicknessVx,
+                   "give a positive number of voxels");
 }
 
 using TriangleNumbers = std::vector<std::uint32_t>;

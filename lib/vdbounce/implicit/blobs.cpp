@@ -2,6 +2,7 @@
 #include "vdbounce/implicit/blobs.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/field/option_checks.h"
 #include "vdbounce/implicit/blob_surface.h"
 #include "vdbounce/implicit/leaf_limit.h"
 #include "vdbounce/implicit/particle_balls.h"
@@ -14,32 +15,22 @@
 namespace vdbounce {
 namespace {
 
-// OpenVDB refuses a scale whose determinant is below 3e-15.
-constexpr double kSmallestVoxel = 1.5e-5;
-
 constexpr double kBytesPerLeaf = 2300.0; // its values, its mask, its place in the tree
 
 void validate(const BlobOptions& options)
 {
-    const auto require = [](bool good, const char* name, double value, const char* remedy) {
-        if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
-    };
-    require(options.voxelSize > 0.0 && std::isfinite(options.voxelSize), "voxel size", options.voxelSize,
-            "give a positive length");
-    require(options.voxelSize >= kSmallestVoxel, "voxel size", options.voxelSize,
-            "OpenVDB's transforms hold no smaller voxels than 1.5e-5; scale the particles up");
-    require(options.halfWidthVx >= 1.0 && options.halfWidthVx < 1e6, "band", options.halfWidthVx,
-            "give at least 1 voxel");
-    require(options.strength > 0.0 && std::isfinite(options.strength), "strength", options.strength,
-            "give a number above zero, for example 1");
+    requireVoxelSize(options.voxelSize, "particles");
+    requireBand("band", options.halfWidthVx);
+    requireInRange(options.strength > 0.0 && std::isfinite(options.strength), "strength", options.strength,
+                   "give a number above zero, for example 1");
     if (options.threshold)
-        require(*options.threshold > 0.0 && std::isfinite(*options.threshold), "threshold", *options.threshold,
-                "give a number above zero, for example 0.4");
+        requireInRange(*options.threshold > 0.0 && std::isfinite(*options.threshold), "threshold", *options.threshold,
+                       "give a number above zero, for example 0.4");
     if (options.radius)
-        require(options.radius->value > 0.0 && std::isfinite(options.radius->value), "radius", options.radius->value,
-                "give a length above zero, for example 2vx");
-    require(options.cutOff > 0.0 && options.cutOff < 1.0, "cut-off", options.cutOff,
-            "give a part of the threshold, for example 1e-4");
+        requireInRange(options.radius->value > 0.0 && std::isfinite(options.radius->value), "radius",
+                       options.radius->value, "give a length above zero, for example 2vx");
+    requireInRange(options.cutOff > 0.0 && options.cutOff < 1.0, "cut-off", options.cutOff,
+                   "give a part of the threshold, for example 1e-4");
 }
 
 std::string count(std::uint64_t number) { return std::to_string(number) + (number == 1 ? " particle" : " particles"); }

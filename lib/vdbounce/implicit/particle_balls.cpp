@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/base/voxel_limits.h"
 #include "vdbounce/io/number_text.h"
 
 #include <algorithm>
@@ -13,9 +14,6 @@ namespace vdbounce {
 namespace {
 
 constexpr std::size_t kParticlesPerBlock = 16384;
-
-// OpenVDB's coordinates are 32-bit integers; sums of two of these do not overflow.
-constexpr double kFarthestVoxel = 1073741824.0;
 
 constexpr std::size_t kNone = ~std::size_t(0);
 

@@ -2,6 +2,7 @@
 #include "vdbounce/implicit/redistance.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/base/voxel_limits.h"
 #include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/implicit/distance_assembly.h"
 #include "vdbounce/implicit/foot_points.h"
@@ -20,10 +21,6 @@ namespace {
 
 constexpr double kDefaultBandVx = 3.0;
 
-// A surface between two voxels must be within the band of both, or a cell would not know it.
-constexpr double kNarrowestVx = 1.0;
-constexpr double kWidestVx = 1e6; // beyond any grid, but short of overflow
-
 // While closest points are sought, and the result.
 constexpr double kBytesPerLeaf = sizeof(FootLeaf) + 2300.0;
 
@@ -31,11 +28,12 @@ double bandVx(const char* name, const std::optional<Length>& given, const openvd
 {
     if (!given) {
         const double own = grid.background() / unit;
-        const bool usable = grid.getGridClass() == openvdb::GRID_LEVEL_SET && own >= kNarrowestVx && own < kWidestVx;
+        const bool usable =
+            grid.getGridClass() == openvdb::GRID_LEVEL_SET && own >= kNarrowestBandVx && own < kWidestBandVx;
         return usable ? own : kDefaultBandVx;
     }
     const double voxels = given->voxels(unit);
-    if (!(voxels >= kNarrowestVx && voxels < kWidestVx))
+    if (!(voxels >= kNarrowestBandVx && voxels < kWidestBandVx))
         throw UsageError(name, numberText(voxels) + " voxels is out of range",
                          "give at least one voxel, for example 3vx");
     return voxels;

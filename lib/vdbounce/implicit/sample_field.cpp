@@ -2,24 +2,17 @@
 #include "vdbounce/implicit/sample_field.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/base/voxel_limits.h"
 #include "vdbounce/field/grid_assembly.h"
+#include "vdbounce/field/option_checks.h"
 #include "vdbounce/implicit/band_cubes.h"
 #include "vdbounce/implicit/leaf_limit.h"
-#include "vdbounce/io/number_text.h"
 #include "vdbounce/io/vdb_archive.h"
 
 #include <openvdb/tools/Prune.h>
 
-#include <cmath>
-
 namespace vdbounce {
 namespace {
-
-// OpenVDB refuses a scale whose determinant is below 3e-15.
-constexpr double kSmallestVoxel = 1.5e-5;
-
-// Voxel coordinates stay within 30 bits.
-constexpr double kFarthestVoxel = 1073741824.0;
 
 constexpr double kBytesPerLeaf = 2300.0; // its values, its mask, its place in the tree and on the way down
 constexpr std::size_t kLeavesPerReport = 1024;
@@ -29,26 +22,17 @@ using Leaf = Tree::LeafNodeType;
 
 openvdb::Coord toCoord(const Vec3i& voxel) { return {voxel.x(), voxel.y(), voxel.z()}; }
 
-void validate(const SampleFieldOptions& options, const LinearTransform& transform)
+void validate(const SampleFieldOptions& options)
 {
-    const auto require = [](bool good, const char* name, double value, const char* remedy) {
-        if (!good) throw UsageError(name, numberText(value) + " is out of range", remedy);
-    };
-    const double voxel = transform.smallestVoxelSize();
-    require(voxel >= kSmallestVoxel, "voxel size", voxel,
-            "OpenVDB's transforms hold no smaller voxels than 1.5e-5; scale the shape up");
-    require(options.exteriorVx >= 1.0 && options.exteriorVx < 1e6, "exterior band", options.exteriorVx,
-            "give at least 1 voxel");
-    require(options.interiorVx >= 1.0 && options.interiorVx < 1e6, "interior band", options.interiorVx,
-            "give at least 1 voxel");
+    requireVoxelSize(options.transform ? options.transform->smallestVoxelSize() : options.voxelSize, "shape");
+    requireBand("exterior band", options.exteriorVx);
+    requireBand("interior band", options.interiorVx);
 }
 
 LinearTransform transformFor(const SampleFieldOptions& options)
 {
-    if (options.transform) return *options.transform;
-    if (!(options.voxelSize > 0.0) || !std::isfinite(options.voxelSize))
-        throw UsageError("voxel size", numberText(options.voxelSize) + " is out of range", "give a positive length");
-    return LinearTransform(options.voxelSize * Mat3d::Identity(), Vec3d::Zero());
+    return options.transform ? *options.transform
+                             : LinearTransform(options.voxelSize * Mat3d::Identity(), Vec3d::Zero());
 }
 
 // The voxels that may be in the band.
@@ -61,12 +45,7 @@ VoxelBox voxelsWithin(const Box& world, const LinearTransform& transform)
                                           (corner & 4) != 0 ? world.max.z() : world.min.z())));
     }
     const double farthest = std::max(index.min.cwiseAbs().maxCoeff(), index.max.cwiseAbs().maxCoeff());
-    if (!(farthest < kFarthestVoxel)) {
-        throw UsageError("voxel size " + numberText(transform.smallestVoxelSize()),
-                         "is too small for what reaches " + numberText(std::round(farthest)) +
-                             " voxels from the origin; 1,073,741,824 are the most",
-                         "use larger voxels or move it to the origin");
-    }
+    if (!(farthest < kFarthestVoxel)) refuseFarVoxels(transform.smallestVoxelSize(), farthest, "what", "it");
     return {index.min.array().ceil().cast<int>(), index.max.array().floor().cast<int>()};
 }
 
@@ -169,8 +148,8 @@ private:
 
 LevelSetGrid sampleField(const ImplicitField& field, const SampleFieldOptions& options, Progress& progress)
 {
+    validate(options);
     const LinearTransform transform = transformFor(options);
-    validate(options, transform);
     initializeOpenVdb();
     return toLevelSetGrid(Sampling(field, options, transform, progress).run(), options.gridName);
 }

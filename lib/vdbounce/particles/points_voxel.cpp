@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/particles/points_voxel.h"
 
+#include "vdbounce/base/voxel_limits.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace vdbounce {
 namespace {
 
-constexpr std::size_t kSamples = 4096;         // enough to place the 5 % quantiles within a percent
-constexpr double kTrimmed = 0.05;              // at each end
-constexpr double kParticlesPerVoxel = 8.0;     // OpenVDB's advice for points grids
-constexpr double kLargestIndex = 1073741824.0; // 2^30: leaves room for leaf borders within 32 bits
+constexpr std::size_t kSamples = 4096;     // enough to place the 5 % quantiles within a percent
+constexpr double kTrimmed = 0.05;          // at each end
+constexpr double kParticlesPerVoxel = 8.0; // OpenVDB's advice for points grids
 constexpr double kDefaultVoxel = 1.0;
-constexpr double kSmallestExponent = -16.0; // OpenVDB refuses a scale whose determinant is below 3e-15
+constexpr double kSmallestExponent = -16.0; // the first power of two above kSmallestVoxel
 constexpr double kLargestExponent = 100.0;  // so that positions relative to a voxel stay floats
 
 // The box of the middle nine tenths of evenly spaced samples, axis by axis; its sides are 0 for fewer than two
@@ -52,7 +53,7 @@ double pointsVoxelSize(const Particles& particles)
     double farthest = 0.0;
     const Box box = boundingBox(particles);
     if (!box.empty()) farthest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
-    size = std::max(size, farthest / kLargestIndex);
+    size = std::max(size, farthest / kFarthestVoxel);
     return std::exp2(std::clamp(std::ceil(std::log2(size)), kSmallestExponent, kLargestExponent));
 }
 
