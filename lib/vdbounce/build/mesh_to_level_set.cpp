@@ -10,6 +10,7 @@
 #include "vdbounce/build/mesh_warnings.h"
 #include "vdbounce/build/sign_choice.h"
 #include "vdbounce/build/space_regions.h"
+#include "vdbounce/field/band_width.h"
 #include "vdbounce/field/grid_assembly.h"
 #include "vdbounce/field/option_checks.h"
 

@@ -5,8 +5,6 @@
 #include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/io/openvdb_grid.h"
 
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,13 +17,6 @@ namespace vdbounce {
 
 /// How many leaves a task fills.
 constexpr std::size_t kLeavesPerTask = 64;
-
-/// A band's width as a grid has it: rounded up to float, for OpenVDB's checks ask for no less than was meant.
-inline float bandWidth(double world)
-{
-    const float nearest = float(world);
-    return double(nearest) < world ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
-}
 
 /// An empty grid.
 template <class GridType>

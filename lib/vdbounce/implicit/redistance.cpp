@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/voxel_limits.h"
+#include "vdbounce/field/band_width.h"
 #include "vdbounce/field/openvdb_transform.h"
 #include "vdbounce/implicit/distance_assembly.h"
 #include "vdbounce/implicit/foot_points.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace vdbounce {
 namespace {
@@ -37,13 +37,6 @@ double bandVx(const char* name, const std::optional<Length>& given, const openvd
         throw UsageError(name, numberText(voxels) + " voxels is out of range",
                          "give at least one voxel, for example 3vx");
     return voxels;
-}
-
-// The float above or at `width`, so that a band of 3 voxels is not a little less.
-float roundedUp(double width)
-{
-    const float rounded = float(width);
-    return double(rounded) < width ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
 }
 
 [[noreturn]] void throwWithoutSurface(const openvdb::FloatGrid& grid, const std::string& place, double iso)
@@ -80,7 +73,7 @@ LevelSetGrid redistance(const ScalarGrid& implicit, const RedistanceOptions& opt
     FootLeaves feet = findFeet(surface, metric, float(std::max(exterior, interior)),
                                leavesWithin(options.maxMemory, kBytesPerLeaf), progress);
     progress.update(2, kStages);
-    const DistanceBand band{roundedUp(exterior * metric.unit), roundedUp(interior * metric.unit)};
+    const DistanceBand band{bandWidth(exterior * metric.unit), bandWidth(interior * metric.unit)};
     LevelSetGrid result = assembleDistances(std::move(feet), surface, samples, metric, band,
                                             options.name.empty() ? grid.getName() : options.name);
     progress.update(kStages, kStages);

@@ -3,6 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/voxel_limits.h"
+#include "vdbounce/field/band_width.h"
 #include "vdbounce/field/grid_assembly.h"
 #include "vdbounce/field/option_checks.h"
 #include "vdbounce/implicit/band_cubes.h"

@@ -135,20 +135,22 @@ HWY_INLINE void searchLarge(const Ball& ball, std::int32_t number, const Vec3d& 
     layOver(rows, axis[2], band * (band + 2.0 * ball.radius), LargeBall(ball), number, search);
 }
 
-HWY_INLINE void finishVoxel(double phi, float width, SphereLeaf& result, std::size_t v)
-{
-    const float value = std::min(std::max(float(phi), -width), width);
-    result.phi[v] = value;
-}
-
-HWY_INLINE void findActive(float width, SphereLeaf& result)
+// Voxels within the band are active, all others become its width.
+HWY_INLINE void cutToBand(const SphereBand& band, SphereLeaf& result)
 {
     const RowFloats d;
-    const auto limit = hn::Set(d, width);
+    // Rounded as phi is, not up, or voxels just as far as the band is wide would be within.
+    const auto limit = hn::Set(d, float(band.halfWidthVx * band.voxelSize));
+    const auto width = hn::Set(d, band.width());
     for (std::size_t x = 0; x < 8; ++x) {
         std::uint64_t word = 0;
-        for (std::size_t i = 0; i < 64; i += hn::Lanes(d))
-            word |= bitsOf(d, hn::Lt(hn::Abs(hn::Load(d, result.phi + 64 * x + i)), limit)) << i;
+        for (std::size_t i = 0; i < 64; i += hn::Lanes(d)) {
+            float* at = result.phi + 64 * x + i;
+            const auto phi = hn::Load(d, at);
+            const auto within = hn::Lt(hn::Abs(phi), limit);
+            hn::Store(hn::IfThenElse(within, phi, hn::CopySign(width, phi)), d, at);
+            word |= bitsOf(d, within) << i;
+        }
         result.active[x] = word;
     }
 }
@@ -158,9 +160,7 @@ void measureEqual(const Ball* balls, std::size_t count, const Vec3d& origin, con
     alignas(64) double squared[512];
     const double radius = balls[0].radius;
     searchEqual(balls, count, origin, radius + band.halfWidthVx, squared);
-    const auto width = float(band.halfWidthVx * band.voxelSize);
-    for (std::size_t v = 0; v < 512; ++v)
-        finishVoxel((std::sqrt(squared[v]) - radius) * band.voxelSize, width, result, v);
+    for (std::size_t v = 0; v < 512; ++v) result.phi[v] = float((std::sqrt(squared[v]) - radius) * band.voxelSize);
 }
 
 void measureAny(const Ball* balls, std::size_t count, const Vec3d& origin, const SphereBand& band, SphereLeaf& result)
@@ -177,7 +177,6 @@ void measureAny(const Ball* balls, std::size_t count, const Vec3d& origin, const
             searchSmall(balls[i], number, origin, reach, search);
         }
     }
-    const auto width = float(band.halfWidthVx * band.voxelSize);
     for (std::size_t v = 0; v < 512; ++v) {
         double phi = band.halfWidthVx;
         if (search.ball[v] >= 0) {
@@ -187,7 +186,7 @@ void measureAny(const Ball* balls, std::size_t count, const Vec3d& origin, const
             const double z = origin.z() + double(v & 7) - ball.z;
             phi = std::sqrt(x * x + y * y + z * z) - ball.radius;
         }
-        finishVoxel(phi * band.voxelSize, width, result, v);
+        result.phi[v] = float(phi * band.voxelSize);
     }
 }
 
@@ -200,7 +199,7 @@ void measureLeaf(const Ball* balls, std::size_t count, const Vec3i& leaf, const 
     } else {
         measureAny(balls, count, origin, band, result);
     }
-    findActive(float(band.halfWidthVx * band.voxelSize), result);
+    cutToBand(band, result);
 }
 
 } // namespace HWY_NAMESPACE

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "vdbounce/base/vector.h"
+#include "vdbounce/field/band_width.h"
 #include "vdbounce/implicit/ball_list.h"
 
 #include <cstddef>
@@ -26,6 +27,9 @@ struct SphereLeaf {
 struct SphereBand {
     double halfWidthVx; ///< of the band, voxels
     double voxelSize;   ///< world units
+
+    /// World units, as the grid has it.
+    float width() const { return bandWidth(halfWidthVx * voxelSize); }
 };
 
 /// min |x - c| - r over the balls (index space) at every voxel of the leaf (leaf coordinates).

@@ -61,7 +61,7 @@ LevelSetGrid sphereUnion(BallList balls, const SphereBand& band, const std::stri
     LeafCollector leaves(maxLeaves);
     SphereWork work(band, largest, leaves);
     visitLeaves(std::move(balls), {1.0, band.halfWidthVx}, work, progress);
-    return leaves.levelSet(float(band.halfWidthVx * band.voxelSize), band.voxelSize, name);
+    return leaves.levelSet(band.width(), band.voxelSize, name);
 }
 
 } // namespace vdbounce
