@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "option_values.h"
+#include "band_arguments.h"
 
-#include <optional>
 #include <string>
 
 namespace vdbounce::tool {
@@ -12,9 +11,7 @@ namespace vdbounce::tool {
 struct MakeArguments {
     std::string output;
     double voxel = 0.0; ///< world units
-    std::optional<Length> band;
-    std::optional<Length> exterior;
-    std::optional<Length> interior;
+    BandArguments band;
     std::string name = "surface";
     bool half = false;
     std::uint64_t maxMemory = 0;

@@ -37,10 +37,7 @@ void addVoxelOptions(CLI::App& verb, Mesh2lsArguments& a)
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     verb.add_option("--like", a.like, "Voxels where those of the level set in this file are")->type_name("GRID.vdb");
-    addLength(verb, "--band", a.band,
-              "Half width of the narrow band on both sides (default 3vx; vx are multiples of a voxel's longest side)");
-    addLength(verb, "--exterior", a.exterior, "Half width outside");
-    addLength(verb, "--interior", a.interior, "Half width inside");
+    addBandOptions(verb, a.band, "default 3vx; vx are multiples of a voxel's longest side");
 }
 
 void addOutputOptions(CLI::App& verb, Mesh2lsArguments& a)
@@ -87,8 +84,7 @@ void requireSound(const Mesh2lsArguments& a)
     };
     const int given = int(a.voxel.has_value()) + int(a.dim.has_value()) + int(!a.like.empty());
     require(given == 1, "exactly one of --voxel and --dim is needed, or --like", "give for example --dim 128");
-    require(!a.band || (!a.exterior && !a.interior), "--band excludes --exterior and --interior",
-            "give one or the other");
+    requireNoClash(a.band, kVerb);
     const bool sequence = a.isSequence();
     require(sequence == isFramePattern(a.output),
             sequence ? "a sequence needs #### in its output's name, too" : "only a sequence has #### in its output",
@@ -120,9 +116,8 @@ MeshToLevelSetOptions optionsFor(const Mesh2lsArguments& a, const LinearTransfor
     options.confidence = a.confidence;
     options.maxMemory = a.maxMemory;
     const double voxel = longestSide(options);
-    if (a.band) options.exteriorVx = options.interiorVx = a.band->voxels(voxel);
-    if (a.exterior) options.exteriorVx = a.exterior->voxels(voxel);
-    if (a.interior) options.interiorVx = a.interior->voxels(voxel);
+    if (const auto outside = a.band.outside()) options.exteriorVx = outside->voxels(voxel);
+    if (const auto inside = a.band.inside()) options.interiorVx = inside->voxels(voxel);
     if (a.thickness) options.thicknessVx = a.thickness->voxels(voxel);
     return options;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "option_values.h"
+#include "band_arguments.h"
 
 #include "vdbounce/build/mesh_to_level_set.h"
 
@@ -17,9 +17,7 @@ struct Mesh2lsArguments {
     std::optional<Vec3d> voxel;
     std::optional<int> dim;
     std::string like;
-    std::optional<Length> band;
-    std::optional<Length> exterior;
-    std::optional<Length> interior;
+    BandArguments band;
     std::optional<Length> thickness;
     SignMethod sign = SignMethod::Auto;
     std::string name = "surface";

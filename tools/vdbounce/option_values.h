@@ -33,9 +33,9 @@ CLI::Option* addBytes(CLI::App& app, const std::string& name, std::uint64_t& tar
 /// A number of particles; "1e6" is one too. At most a hundred thousand million.
 CLI::Option* addCount(CLI::App& app, const std::string& name, std::uint64_t& target, const std::string& help);
 
-/// One word of a list; `target` becomes the value beside it.
-template <class T>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const std::map<std::string, T>& choices,
+/// One word of a list; `target`, a T or an optional one, becomes the value beside it.
+template <class T, class Target>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, const std::map<std::string, T>& choices,
                        const std::string& help)
 {
     const auto parse = [&target, choices, name](const std::string& text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "option_values.h"
+#include "band_arguments.h"
 #include "progress_bar.h"
 #include "report.h"
 #include "signals.h"
@@ -9,7 +9,6 @@
 #include "vdbounce/implicit/redistance.h"
 #include "vdbounce/io/grid_file.h"
 
-#include <map>
 #include <memory>
 
 namespace vdbounce::tool {
@@ -18,13 +17,15 @@ namespace {
 // Half of full density, where fog made of a level set has the surface.
 constexpr double kFogIso = 0.5;
 
+const std::map<std::string, Inside> kSides = {{"below", Inside::Below}, {"above", Inside::Above}};
+
 struct RedistanceArguments {
     std::string input;
     std::string output;
     std::string grid;
     std::optional<double> iso;
     std::optional<Inside> inside;
-    std::optional<Length> band;
+    BandArguments band;
     RedistanceOptions options;
     bool half = false;
 };
@@ -35,15 +36,15 @@ RedistanceOptions optionsFor(const RedistanceArguments& a, const ScalarGrid& gri
     const bool fog = isFogVolume(grid);
     options.inside = a.inside ? *a.inside : (fog ? Inside::Above : Inside::Below);
     options.iso = a.iso ? *a.iso : (fog ? kFogIso : 0.0);
-    if (a.band) options.exterior = options.interior = a.band;
+    options.exterior = a.band.outside();
+    options.interior = a.band.inside();
     return options;
 }
 
 void runRedistance(const RedistanceArguments& a, const CommonOptions& common)
 {
     requireOutput(a.output, {"vdb"}, {a.input});
-    if (a.band && (a.options.exterior || a.options.interior))
-        throw UsageError("vdbounce redistance", "--band excludes --exterior and --interior", "give one or the other");
+    requireNoClash(a.band, "vdbounce redistance");
     endAtOnceWhenInterrupted(); // all that is written is written at the end
     Stopwatch watch;
     const ScalarGrid implicit = readScalarGrid(a.input, a.grid);
@@ -80,22 +81,9 @@ void addRedistance(CLI::App& app, const CommonOptions& common)
     verb->add_option("-o,--output", a->output, "Level set to write, .vdb")->required();
     verb->add_option("--grid", a->grid, "Grid to read (default: the first level set, or else the first of numbers)");
     verb->add_option("--iso", a->iso, "Value at the surface (default 0; of a fog volume 0.5)")->type_name("V");
-    const std::map<std::string, Inside> sides = {{"below", Inside::Below}, {"above", Inside::Above}};
-    verb->add_option_function<std::string>(
-            "--inside",
-            [a, sides](const std::string& word) {
-                const auto found = sides.find(word);
-                if (found == sides.end())
-                    throw UsageError("--inside", "'" + word + "' is not a choice", "use one of: above, below");
-                a->inside = found->second;
-            },
-            "Where values are below or above that one (default below; of a fog volume above)")
-        ->type_name("WORD");
-    addLength(*verb, "--band", a->band,
-              "Half width of the narrow band on both sides (default that of a level set, else 3vx; vx are multiples of "
-              "a voxel's longest side)");
-    addLength(*verb, "--exterior", a->options.exterior, "Half width outside");
-    addLength(*verb, "--interior", a->options.interior, "Half width inside");
+    addChoice(*verb, "--inside", a->inside, kSides,
+              "Where values are below or above that one (default below; of a fog volume above)");
+    addBandOptions(*verb, a->band, "default that of a level set, else 3vx; vx are multiples of a voxel's longest side");
     addBytes(*verb, "--max-memory", a->options.maxMemory,
              "Refuse what would need more (default three quarters of the machine's)");
     verb->add_option("--name", a->options.name, "Name of the grid (default: as it was)");
