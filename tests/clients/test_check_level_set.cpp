@@ -27,8 +27,9 @@ struct Files {
     // What OpenVDB finds wrong with the result of these words, in which files begin with @.
     std::string complaint(std::string words, const std::string& output, std::size_t checks) const
     {
-        for (std::size_t at = words.find('@'); at != std::string::npos; at = words.find('@'))
-            words.replace(at, 1, folder / "");
+        const std::string path = folder / "";
+        for (std::size_t at = 0; (at = words.find('@', at)) != std::string::npos; at += path.size())
+            words.replace(at, 1, path);
         const ToolRun run = runTool(words + " --quiet -o " + (folder / output));
         REQUIRE(run.err == "");
         openvdb::io::File file(folder / output);
