@@ -123,6 +123,36 @@ TEST_CASE("the plan is explained without running anything")
     CHECK(folder.fileCount() == 3);
 }
 
+TEST_CASE("a scene's accuracy decides how its level sets are looked up")
+{
+    const Prepared folder;
+    const std::string scene = "collide " + (folder / "scene.toml") + " --set output.file=o.csv";
+    const auto run = [&](const std::string& settings) {
+        const ToolRun done = runTool(scene + settings + " --json");
+        INFO(settings << ": " << done.err);
+        REQUIRE(done.exitCode == 0);
+        return Json::parse(done.out);
+    };
+    const Json usual = run("");
+    const std::string particles = readFile(folder / "o.csv");
+    run(" --set accuracy.lookup=trilinear --set accuracy.normal=central --set accuracy.storage=float");
+    CHECK(readFile(folder / "o.csv") == particles);
+    for (const char* other : {"lookup=nearest", "lookup=cubic", "normal=analytic", "storage=half", "storage=fixed8"}) {
+        INFO(other);
+        const Json json = run(std::string(" --set accuracy.") + other);
+        CHECK(readFile(folder / "o.csv") != particles);
+        // The same fall, to the accuracy of a bunny of 64 voxels.
+        CHECK(json["contacts"] > 0); // many more with "nearest", whose phi jumps under what slides
+        CHECK(json["energy_final"].get<double>() == Approx(usual["energy_final"].get<double>()).epsilon(0.02));
+        CHECK(json["max_penetration"].get<double>() < 1e-3);
+    }
+    const ToolRun plan = runTool(scene + " --explain --set accuracy.lookup=cubic");
+    CHECK_THAT(plan.out, Catch::Contains("accuracy: cubic lookup, central normals, values kept as float"));
+    const ToolRun wrong = runTool(scene + " --set accuracy.lookup=quintic");
+    CHECK(wrong.exitCode == 3);
+    CHECK_THAT(wrong.err, Catch::Contains("use one of: nearest, trilinear, cubic"));
+}
+
 TEST_CASE("particles that cannot be stepped are kept and counted, and refused when strict")
 {
     const Prepared folder("cloud.csv");

@@ -52,9 +52,9 @@ max_bounces = 1
 sweep = "never"
 repulsion = { range = 0.0, strength = 0.0 }
 [accuracy]
-lookup = "trilinear"
-normal = "central"
-storage = "float"
+lookup = "cubic"
+normal = "analytic"
+storage = "half"
 [[collider]]
 name = "bunny"
 file = "meshes/bunny.vdb"
@@ -72,6 +72,9 @@ every = 2
     CHECK(scene.radius.inVoxels);
     CHECK(scene.mass == 3.0);
     CHECK(scene.sweep == Sweep::Never);
+    CHECK(scene.accuracy.lookup == Lookup::Cubic);
+    CHECK(scene.accuracy.normal == Normal::Analytic);
+    CHECK(scene.accuracy.storage == Storage::Half);
     REQUIRE(scene.colliders.size() == 2);
     CHECK(scene.colliders[0].file == folder / "meshes/bunny.vdb");
     CHECK(scene.colliders[0].friction == 2.0);

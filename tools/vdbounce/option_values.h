@@ -51,6 +51,14 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, c
     return app.add_option_function<std::string>(name, parse, help)->type_name("WORD");
 }
 
+/// The choices of an enumeration whose names stand in its order.
+template <class Enum, std::size_t N> std::map<std::string, Enum> named(const char* const (&names)[N])
+{
+    std::map<std::string, Enum> choices;
+    for (std::size_t i = 0; i < N; ++i) choices[names[i]] = Enum(i);
+    return choices;
+}
+
 /// Refuses an output that has none of these endings or is one of the inputs, which it would destroy.
 void requireOutput(const std::string& output, const std::vector<std::string>& endings,
                    const std::vector<std::string>& inputs);

@@ -26,12 +26,6 @@ struct SampleArguments {
     FieldOptions options;
 };
 
-const std::map<std::string, Lookup> kLookups = {
-    {"nearest", Lookup::Nearest}, {"trilinear", Lookup::Trilinear}, {"cubic", Lookup::Cubic}};
-const std::map<std::string, Normal> kNormals = {{"central", Normal::Central}, {"analytic", Normal::Analytic}};
-const std::map<std::string, Storage> kStorages = {
-    {"float", Storage::Float}, {"half", Storage::Half}, {"fixed8", Storage::Fixed8}};
-
 void appendRow(std::string& text, const DistanceField& field, const Vec3d& point)
 {
     const FieldSample sample = field.sample(point);
@@ -76,11 +70,11 @@ void addSample(CLI::App& app, const CommonOptions& common)
     verb->add_option("-o,--output", arguments->output, "Table to write, .csv: x,y,z,phi,gx,gy,gz,lo,hi in input order")
         ->required();
     verb->add_option("--grid", arguments->grid, "Name of the grid, where the file holds several (default the first)");
-    addChoice(*verb, "--lookup", arguments->options.lookup, kLookups,
+    addChoice(*verb, "--lookup", arguments->options.lookup, named<Lookup>(kLookupNames),
               "How phi is taken from the voxels: nearest, trilinear (default), cubic");
-    addChoice(*verb, "--normal", arguments->options.normal, kNormals,
+    addChoice(*verb, "--normal", arguments->options.normal, named<Normal>(kNormalNames),
               "Gradient: central differences, interpolated (default), or the analytic one of the interpolation");
-    addChoice(*verb, "--storage", arguments->options.storage, kStorages,
+    addChoice(*verb, "--storage", arguments->options.storage, named<Storage>(kStorageNames),
               "Keep values as float (default), half or fixed8");
     verb->footer("Example:\n  vdbounce sample bunny.vdb --at points.csv -o phi.csv");
     verb->callback([arguments, &common] { runWith(common, [&] { runSample(*arguments, common); }); });

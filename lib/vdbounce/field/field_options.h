@@ -21,6 +21,15 @@ enum class Normal {
               ///< the derivative of the spline, which is continuous
 };
 
+/// What scenes, options and reports call them, in the enumerations' order.
+constexpr const char* kLookupNames[] = {"nearest", "trilinear", "cubic"};
+constexpr const char* kNormalNames[] = {"central", "analytic"};
+constexpr const char* kStorageNames[] = {"float", "half", "fixed8"};
+
+inline const char* nameOf(Lookup lookup) { return kLookupNames[int(lookup)]; }
+inline const char* nameOf(Normal normal) { return kNormalNames[int(normal)]; }
+inline const char* nameOf(Storage storage) { return kStorageNames[int(storage)]; }
+
 struct FieldOptions {
     Lookup lookup = Lookup::Trilinear;
     Normal normal = Normal::Central;

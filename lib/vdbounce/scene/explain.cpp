@@ -3,6 +3,8 @@
 #include "vdbounce/scene/run.h"
 #include "vdbounce/scene/scene_colliders.h"
 
+#include <cmath>
+
 namespace vdbounce {
 namespace {
 
@@ -46,6 +48,15 @@ std::string describeForm(const ColliderSpec& spec)
     if (spec.heightfield) return "heightfield, ";
     const bool named = spec.formula && !std::holds_alternative<PlaneShape>(*spec.formula);
     return named ? std::string(nameOf(*spec.formula)) + ", " : "";
+}
+
+// Nothing where no collider is a level set.
+std::string describeAccuracy(const Scene& scene, const ColliderSet& colliders)
+{
+    if (!std::isfinite(colliders.smallestVoxel())) return "";
+    const FieldOptions& accuracy = scene.accuracy;
+    return std::string("accuracy: ") + nameOf(accuracy.lookup) + " lookup, " + nameOf(accuracy.normal) +
+           " normals, values kept as " + nameOf(accuracy.storage);
 }
 
 std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
@@ -115,6 +126,8 @@ std::vector<std::string> explainScene(const Scene& scene)
                         ", restitution " + numberText(collider.restitution) + ", friction " +
                         numberText(collider.friction));
     }
+    const std::string accuracy = describeAccuracy(scene, colliders);
+    if (!accuracy.empty()) lines.push_back(accuracy);
     lines.push_back(describeScheme(scene));
     lines.push_back(describeSweep(scene, colliders));
     lines.push_back(describeLookups(scene, colliders));

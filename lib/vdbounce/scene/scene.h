@@ -5,6 +5,7 @@
 #include "vdbounce/base/vector.h"
 #include "vdbounce/contact/particle_contact.h"
 #include "vdbounce/contact/step.h"
+#include "vdbounce/field/field_options.h"
 #include "vdbounce/scene/collider_spec.h"
 
 #include <optional>
@@ -31,6 +32,8 @@ struct Scene {
     double repulsionStrength = 0.0; ///< world units / s^2, >= 0
     bool interact = false;          ///< particles collide with each other
     InteractOptions particles;      ///< and how
+
+    FieldOptions accuracy; ///< how level sets are looked up
 
     std::vector<ColliderSpec> colliders;
 

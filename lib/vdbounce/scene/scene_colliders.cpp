@@ -22,19 +22,19 @@ constexpr double kLookupReachVx = 2.0;
 
 using FieldPtr = std::shared_ptr<const DistanceField>;
 
-FieldPtr loadField(const std::string& path)
+FieldPtr loadField(const std::string& path, const FieldOptions& accuracy)
 {
     const LevelSetGrid grid = readLevelSet(path);
     try {
-        return std::make_shared<const DistanceField>(grid);
+        return std::make_shared<const DistanceField>(grid, accuracy);
     } catch (const InputError& error) {
         throw InputError(path, error.what(), "write the file again");
     }
 }
 
-FieldPtr loadBlobs(const ColliderSpec::Blobs& blobs)
+FieldPtr loadBlobs(const ColliderSpec::Blobs& blobs, const FieldOptions& accuracy)
 {
-    return std::make_shared<const DistanceField>(makeBlobs(readParticles(blobs.file), blobs.options).grid);
+    return std::make_shared<const DistanceField>(makeBlobs(readParticles(blobs.file), blobs.options).grid, accuracy);
 }
 
 // What a collider's level set goes by; of blobs no file has it.
@@ -103,10 +103,10 @@ SceneColliders::SceneColliders(const Scene& scene) : scene_(scene)
             heightfields_[spec.name] = std::make_shared<const HeightfieldField>(readHeightMap(spec.heightfield->file),
                                                                                 spec.heightfield->place);
         }
-        if (spec.blobs) fields_[fieldKey(spec)] = loadBlobs(*spec.blobs);
+        if (spec.blobs) fields_[fieldKey(spec)] = loadBlobs(*spec.blobs, scene.accuracy);
         if (spec.file.empty()) continue;
         FieldPtr& field = fields_[spec.file];
-        if (!field) field = loadField(spec.file);
+        if (!field) field = loadField(spec.file, scene.accuracy);
     }
 }
 
@@ -118,7 +118,7 @@ SceneColliders::Moment SceneColliders::momentOf(const std::string& sequence, int
     Moment& moment = moments[frame];
     if (!moment.field) {
         const std::string path = framePath(sequence, frame);
-        moment = {loadField(path), readVelocityField(path)};
+        moment = {loadField(path, scene_.accuracy), readVelocityField(path)};
     }
     return moment;
 }

@@ -55,16 +55,18 @@ void readContact(SceneTable table, Scene& scene)
     table.finish();
 }
 
-void readAccuracy(SceneTable table)
+template <class Enum, std::size_t N>
+Enum namedChoice(SceneTable& table, const char* key, const char* const (&names)[N], Enum otherwise)
 {
-    const auto onlyFirst = [&](const char* key, const std::vector<std::string>& choices) {
-        if (table.choice(key, choices, 0) != 0) {
-            table.fail(key, "is not supported by this version", "use \"" + choices[0] + "\"");
-        }
-    };
-    onlyFirst("lookup", {"trilinear", "nearest", "cubic"});
-    onlyFirst("normal", {"central", "analytic"});
-    onlyFirst("storage", {"float", "half", "fixed8"});
+    return Enum(table.choice(key, {names, names + N}, std::size_t(otherwise)));
+}
+
+void readAccuracy(SceneTable table, Scene& scene)
+{
+    FieldOptions& accuracy = scene.accuracy;
+    accuracy.lookup = namedChoice(table, "lookup", kLookupNames, accuracy.lookup);
+    accuracy.normal = namedChoice(table, "normal", kNormalNames, accuracy.normal);
+    accuracy.storage = namedChoice(table, "storage", kStorageNames, accuracy.storage);
     table.refuseForNow("max_error", "remove it");
     table.finish();
 }
@@ -133,7 +135,7 @@ Scene readScene(const std::string& path, const std::vector<std::string>& overrid
     readWorld(table.table("world"), scene);
     readParticles(table.table("particles"), path, scene);
     readContact(table.table("contact"), scene);
-    readAccuracy(table.table("accuracy"));
+    readAccuracy(table.table("accuracy"), scene);
     readColliders(root, path, scene);
     table.markKnown("collider");
     readOutput(table.table("output"), path, scene);
