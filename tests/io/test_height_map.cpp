@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/broken_files.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"
 
@@ -186,13 +187,7 @@ TEST_CASE("a text grid is separated by commas, semicolons or blanks")
 
 TEST_CASE("a broken text grid is refused with its line and column")
 {
-    struct Case {
-        const char* file;
-        const char* text;
-        const char* place;
-        const char* what;
-    };
-    const Case cases[] = {
+    const std::vector<test::BrokenFile> files = {
         {"word.csv", "1,2,3\n# remark\n4,five,6\n", "word.csv:3", "'five' in column 2 is no number"},
         {"header.csv", "x,y\n1,2\n3,4\n", "header.csv:1", "start lines that hold no heights with '#'"},
         {"nan.csv", "1,2\n3,nan\n", "nan.csv:2", "'nan' in column 2 is not finite"},
@@ -209,13 +204,8 @@ TEST_CASE("a broken text grid is refused with its line and column")
         {"map.tiff", "1 2\n3 4\n", "map.tiff", "'tiff' is no height map format"},
         {"text.png", "1 2\n3 4\n", "text.png", "is no PNG file"},
     };
+    test::checkRefused(files, readHeightMap);
     const TemporaryFolder folder;
-    for (const Case& c : cases) {
-        INFO(c.file);
-        const std::string path = folder.write(c.file, c.text);
-        CHECK_THROWS_AS(readHeightMap(path), InputError);
-        CHECK_THROWS_WITH(readHeightMap(path), Catch::Contains(folder / c.place) && Catch::Contains(c.what));
-    }
     CHECK_THROWS_AS(readHeightMap(folder / "missing.csv"), InputError);
     CHECK_THROWS_AS(readBack(png(2, 8, kGrey, {bytes({1, 2})})), InputError);
 }

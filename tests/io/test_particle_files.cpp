@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "support/broken_files.h"
 #include "support/random.h"
 #include "support/temporary_folder.h"
 
-#include "vdbounce/base/error.h"
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/particles/points_voxel.h"
 
@@ -174,13 +174,7 @@ TEST_CASE("equal particles give equal files")
 
 TEST_CASE("a broken particle file is refused with its place")
 {
-    struct Case {
-        const char* file;
-        const char* text;
-        const char* place;
-        const char* what;
-    };
-    const Case cases[] = {
+    const std::vector<test::BrokenFile> files = {
         {"empty.csv", "", "empty.csv", "is empty"},
         {"header.csv", "a,b,c\n1,2,3\n", "header.csv:1", "no columns x, y and z"},
         {"twice.csv", "x,y,z,x\n1,2,3,4\n", "twice.csv:1", "'x' comes twice"},
@@ -198,13 +192,7 @@ TEST_CASE("a broken particle file is refused with its place")
         {"junk.vdb", "this is no OpenVDB file at all", "junk.vdb", "cannot be read as OpenVDB"},
         {"what.xyz", "1 2 3", "what.xyz", "no particle format"},
     };
-    const TemporaryFolder folder;
-    for (const Case& c : cases) {
-        INFO(c.file);
-        const std::string path = folder.write(c.file, c.text);
-        CHECK_THROWS_AS(readParticles(path), InputError);
-        CHECK_THROWS_WITH(readParticles(path), Catch::Contains(folder / c.place) && Catch::Contains(c.what));
-    }
+    test::checkRefused(files, readParticles);
 }
 
 TEST_CASE("a cloud smaller than OpenVDB's smallest voxel can be written")
