@@ -2,6 +2,7 @@
 #include "support/grids.h"
 #include "support/grounds.h"
 #include "support/one_particle.h"
+#include "support/step_options.h"
 
 #include "vdbounce/contact/particle_pass.h"
 
@@ -18,14 +19,6 @@ using namespace vdbounce::test;
 namespace {
 
 constexpr double kDegree = M_PI / 180.0;
-
-StepOptions millisecond(Scheme scheme = Scheme::CollideContact)
-{
-    StepOptions options;
-    options.dt = 1e-3;
-    options.scheme = scheme;
-    return options;
-}
 
 // What a run must keep to with every scheme, whatever else it tells.
 struct Watch {
