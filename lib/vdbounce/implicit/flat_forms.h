@@ -14,6 +14,7 @@
 
 namespace vdbounce {
 
+/// For grids and CSG. Contact has field/plane_field.h by value instead, which paths meet in closed form.
 class PlaneForm {
 public:
     static constexpr bool kConvex = true;
