@@ -88,3 +88,25 @@ TEST_CASE("a drop's hit tells time, place, normal, velocity and collider")
         CHECK(hit.count == count);
     }
 }
+
+TEST_CASE("a hit's time does not depend on how many steps a call takes")
+{
+    Collider sticky = collider(PlaneField(Vec3d::Zero(), kUp), 0.0, 0.5, Motion());
+    sticky.onHit = OnHit::Stick;
+    const ColliderSet still({sticky});
+    std::vector<double> times;
+    for (const int stepsAtOnce : {1, 7, 700}) {
+        Particles particles;
+        particles.resize(1);
+        particles.position[0] = Vec3d(0, 1, 0);
+        PassOptions options;
+        options.step = millisecond();
+        options.hits = true;
+        ParticlePass pass(particles, still, options);
+        for (int s = 0; s < 700; s += stepsAtOnce) pass.advance(stepsAtOnce);
+        times.push_back(particles.hits[0].time);
+    }
+    CHECK(times[0] == Approx(std::sqrt(2.0 / kGravity)).margin(1e-3));
+    CHECK(times[1] == times[0]);
+    CHECK(times[2] == times[0]);
+}

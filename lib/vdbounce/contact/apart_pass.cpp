@@ -22,7 +22,7 @@ constexpr double kStepsAhead = 8.0;
 } // namespace
 
 struct ParticlePass::Apart {
-    std::vector<PlacedColliders> placed; // of each step; one where nothing moves
+    std::vector<PlacedColliders> placed; // of each step; one where it makes no difference
     std::vector<double> reach;
     FlightPlan plan;
     bool batches; // lookups can be made many at once
@@ -144,7 +144,9 @@ private:
 StepTally ParticlePass::advanceApart(int steps, Progress& progress)
 {
     Apart apart;
-    for (int s = 0; s < (colliders_->still() ? 1 : steps); ++s)
+    // What never moves is placed once, unless hits are to know which step they happened in.
+    const bool once = colliders_->still() && !options_.hits;
+    for (int s = 0; s < (once ? 1 : steps); ++s)
         apart.placed.push_back(placedAt(step_ + static_cast<std::uint64_t>(s), options_.step.dt));
     apart.reach.assign(static_cast<std::size_t>(steps), 0.0);
     for (int s = 0; s < steps; ++s) apart.reach[std::size_t(s)] = apart.placedIn(s).reach();
