@@ -31,7 +31,8 @@ void addRender(CLI::App& app, const CommonOptions& common);
 void addSlice(CLI::App& app, const CommonOptions& common);
 void addBench(CLI::App& app, const CommonOptions& common);
 void addBenchMesh(CLI::App& bench, const CommonOptions& common); // a kind of bench
-void addBenchMake(CLI::App& bench, const CommonOptions& common); // another
+void addBenchMake(CLI::App& bench, const CommonOptions& common);
+void addBenchTrade(CLI::App& bench, const CommonOptions& common); // another
 
 /// The number of threads that the user asked for; of all cores where they asked for none.
 int threadsUsed(const CommonOptions& common);

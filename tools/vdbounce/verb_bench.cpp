@@ -117,6 +117,7 @@ void addBench(CLI::App& app, const CommonOptions& common)
     addBenchField(*verb, common);
     addBenchMesh(*verb, common);
     addBenchMake(*verb, common);
+    addBenchTrade(*verb, common);
     addBenchCollide(*verb, common);
 }
 

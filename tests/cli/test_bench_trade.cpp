@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/run_tool.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+using namespace vdbounce::test;
+using Json = nlohmann::json;
+
+namespace {
+
+Json trade(const std::string& arguments)
+{
+    const ToolRun run = runTool("bench trade " + arguments + " --points 2000 --shots 50 --repetitions 1 --json");
+    INFO(run.err);
+    REQUIRE(run.exitCode == 0);
+    return Json::parse(run.out);
+}
+
+// The one case of a group that has these settings.
+Json caseOf(const Json& run, const std::string& group, const Json& settings)
+{
+    Json found;
+    for (const Json& one : run["cases"]) {
+        bool same = one["group"] == group;
+        for (const auto& [key, value] : settings.items()) same = same && one["settings"][key] == value;
+        if (!same) continue;
+        CHECK(found.is_null());
+        found = one;
+    }
+    INFO(group << " " << settings);
+    REQUIRE_FALSE(found.is_null());
+    return found;
+}
+
+double errorOf(const Json& one, const char* name) { return one["error"].at(name).get<double>(); }
+
+void checkPareto(const Json& run, const std::string& group, const char* error)
+{
+    int optimal = 0;
+    for (const Json& one : run["cases"]) {
+        if (one["group"] != group) continue;
+        bool beaten = false;
+        for (const Json& other : run["cases"]) {
+            if (other["group"] != group) continue;
+            const double cost =
+                one["cost"]["ns_per_particle_step"].get<double>() - other["cost"]["ns_per_particle_step"].get<double>();
+            const double off = errorOf(one, error) - errorOf(other, error);
+            beaten = beaten || (cost >= 0.0 && off >= 0.0 && (cost > 0.0 || off > 0.0));
+        }
+        INFO(one["name"]);
+        CHECK(one["pareto"].get<bool>() == !beaten);
+        optimal += beaten ? 0 : 1;
+    }
+    CHECK(optimal > 0);
+}
+
+} // namespace
+
+TEST_CASE("bench trade has what each choice costs and how wrong it is")
+{
+    const Json run = trade("");
+    std::set<std::string> groups;
+    for (const Json& one : run["cases"]) {
+        groups.insert(one["group"]);
+        for (const char* key : {"voxel", "lookup", "normal", "storage", "scheme", "sweep", "dt"})
+            CHECK(one["settings"].contains(key));
+        for (const char* key : {"ns_per_particle_step", "build_seconds", "bytes"}) CHECK(one["cost"].at(key) > 0.0);
+        for (const auto& [name, value] : one["error"].items()) CHECK(value.get<double>() >= 0.0);
+    }
+    CHECK(groups == std::set<std::string>{"sphere, lookups", "torus, lookups", "box, lookups", "shots at a ball, steps",
+                                          "sliding down a slope, steps"});
+    checkPareto(run, "sphere, lookups", "phi_p99");
+    checkPareto(run, "shots at a ball, steps", "place_of_impact_vx");
+
+    const auto sphere = [&](double voxel, const char* lookup, const char* storage) {
+        return caseOf(run, "sphere, lookups",
+                      {{"voxel", voxel}, {"lookup", lookup}, {"normal", "analytic"}, {"storage", storage}});
+    };
+    // Linear interpolation is of second order, that of the nearest value of first.
+    const Json fine = sphere(1.0 / 64, "trilinear", "float");
+    const Json coarse = sphere(1.0 / 16, "trilinear", "float");
+    CHECK(errorOf(coarse, "phi_mean") / errorOf(fine, "phi_mean") == Approx(16.0).epsilon(0.2));
+    CHECK(errorOf(sphere(1.0 / 16, "nearest", "float"), "phi_mean") /
+              errorOf(sphere(1.0 / 64, "nearest", "float"), "phi_mean") ==
+          Approx(4.0).epsilon(0.2));
+    // The interpolant's curvature: at most (1/8) h^2 times the sum of both curvatures, 2 / r a voxel or two inside.
+    CHECK(errorOf(fine, "phi_max_vx") < 0.25 / 62);
+    CHECK(errorOf(sphere(1.0 / 64, "cubic", "float"), "phi_mean") < 0.1 * errorOf(fine, "phi_mean"));
+    CHECK(errorOf(sphere(1.0 / 64, "trilinear", "fixed8"), "phi_mean") > errorOf(fine, "phi_mean"));
+    CHECK(sphere(1.0 / 64, "trilinear", "half")["cost"]["bytes"] < fine["cost"]["bytes"]);
+}
+
+TEST_CASE("bench trade measures steps against ways that are known")
+{
+    const Json run = trade("");
+    const auto shots = [&](const char* scheme, const char* sweep, double dt) {
+        return caseOf(run, "shots at a ball, steps",
+                      {{"voxel", 1.0 / 64},
+                       {"lookup", "trilinear"},
+                       {"normal", "central"},
+                       {"storage", "float"},
+                       {"scheme", scheme},
+                       {"sweep", sweep},
+                       {"dt", dt}});
+    };
+    const Json good = shots("collide-contact", "always", 1.0 / 800);
+    CHECK(errorOf(good, "missed") == 0.0);
+    CHECK(errorOf(good, "penetration_vx") < 0.01);
+    CHECK(errorOf(good, "time_of_impact_s") < 1e-4);
+    CHECK(errorOf(good, "place_of_impact_vx") < 0.1);
+    // Up to 100 units a second: without a sweep the place is off by a part of the step's way, and some pass through.
+    const Json careless = shots("once", "never", 1.0 / 50);
+    CHECK(errorOf(careless, "place_of_impact_vx") > 10.0 * errorOf(good, "place_of_impact_vx"));
+    CHECK(errorOf(careless, "missed") > 0.0);
+    const Json slide = caseOf(run, "sliding down a slope, steps",
+                              {{"voxel", 1.0 / 64},
+                               {"lookup", "trilinear"},
+                               {"normal", "central"},
+                               {"storage", "float"},
+                               {"scheme", "collide-contact"},
+                               {"sweep", "auto"},
+                               {"dt", 1.0 / 800}});
+    CHECK(errorOf(slide, "sliding_distance_relative") < 0.01);
+}
+
+TEST_CASE("bench trade takes meshes and level sets")
+{
+    const Json mesh = trade(sourcePath("data/bunny.obj") + " --dim 32");
+    const Json one = caseOf(mesh, "bunny.obj, lookups",
+                            {{"voxel", mesh["cases"][0]["settings"]["voxel"]},
+                             {"lookup", "trilinear"},
+                             {"normal", "central"},
+                             {"storage", "float"}});
+    CHECK(errorOf(one, "phi_mean_vx") < 0.1);
+    CHECK(errorOf(one, "phi_mean_vx") > 1e-4);
+    CHECK(runTool("bench trade missing.vdb").exitCode == 3);
+    CHECK(runTool("bench trade --points 1").exitCode == 2);
+}

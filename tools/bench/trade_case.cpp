@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/trade_case.h"
+
+#include "bench/stopwatch.h"
+
+#include "vdbounce/io/number_text.h"
+
+#include <algorithm>
+
+namespace vdbounce::bench {
+
+double TradeCost::ns() const { return median(nsPerParticleStep); }
+
+const char* nameOf(Scheme scheme)
+{
+    switch (scheme) {
+    case Scheme::Once: return "once";
+    case Scheme::Iterate: return "iterate";
+    case Scheme::CollideContact: break;
+    }
+    return "collide-contact";
+}
+
+const char* nameOf(Sweep sweep)
+{
+    switch (sweep) {
+    case Sweep::Always: return "always";
+    case Sweep::Never: return "never";
+    case Sweep::Auto: break;
+    }
+    return "auto";
+}
+
+std::string TradeCase::name() const
+{
+    std::string text = group + ", voxel " + numberText(settings.voxel) + ", " +
+                       vdbounce::nameOf(settings.field.lookup) + ", " + vdbounce::nameOf(settings.field.normal) + ", " +
+                       vdbounce::nameOf(settings.field.storage);
+    if (settings.scheme) text += std::string(", ") + nameOf(*settings.scheme);
+    if (settings.sweep) text += std::string(", sweep ") + nameOf(*settings.sweep);
+    if (settings.dt) text += ", dt " + numberText(*settings.dt);
+    return text;
+}
+
+void markPareto(std::vector<TradeCase>& cases)
+{
+    const auto beats = [](const TradeCase& a, const TradeCase& b) {
+        const double costs[] = {a.cost.ns(), b.cost.ns()};
+        const double errors[] = {a.errors.front().second, b.errors.front().second};
+        return costs[0] <= costs[1] && errors[0] <= errors[1] && (costs[0] < costs[1] || errors[0] < errors[1]);
+    };
+    for (TradeCase& one : cases) {
+        one.pareto = std::none_of(cases.begin(), cases.end(), [&](const TradeCase& other) {
+            return other.group == one.group && beats(other, one);
+        });
+    }
+}
+
+} // namespace vdbounce::bench

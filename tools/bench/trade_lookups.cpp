@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/trade_lookups.h"
+
+#include "bench/point_sets.h"
+#include "bench/stopwatch.h"
+
+#include "vdbounce/base/parallel.h"
+#include "vdbounce/field/sample_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tbb/global_control.h>
+
+namespace vdbounce::bench {
+namespace {
+
+constexpr std::size_t kPointsPerTask = 1024;
+
+struct Truth {
+    std::vector<double> phi;
+    std::vector<Vec3d> normal;
+};
+
+Truth truthAt(const TradeSubject& subject, const std::vector<Vec3d>& points)
+{
+    Truth truth{std::vector<double>(points.size()), std::vector<Vec3d>(points.size())};
+    forEachIndex(points.size(), kPointsPerTask, [&](std::size_t i) {
+        truth.phi[i] = subject.phi(points[i]);
+        truth.normal[i] = subject.normal(points[i]);
+    });
+    return truth;
+}
+
+struct Spread {
+    double mean = 0.0;
+    double p99 = 0.0;
+    double largest = 0.0;
+};
+
+Spread spreadOf(std::vector<double> errors)
+{
+    Spread spread;
+    if (errors.empty()) return spread;
+    for (double error : errors) spread.mean += error;
+    spread.mean /= double(errors.size());
+    const auto p99 = errors.begin() + std::ptrdiff_t(0.99 * double(errors.size() - 1));
+    std::nth_element(errors.begin(), p99, errors.end());
+    spread.p99 = *p99;
+    spread.largest = *std::max_element(p99, errors.end());
+    return spread;
+}
+
+double degreesBetween(const Vec3d& a, const Vec3d& b)
+{
+    constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+    return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+}
+
+std::vector<std::pair<std::string, double>> errorsOf(const std::vector<PointSample>& samples, const Truth& truth,
+                                                     double voxel)
+{
+    std::vector<double> phi;
+    std::vector<double> angle;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        phi.push_back(std::abs(double(samples[i].phi) - truth.phi[i]));
+        const Vec3d gradient(samples[i].gradient[0], samples[i].gradient[1], samples[i].gradient[2]);
+        if (!truth.normal[i].isZero(0.0)) angle.push_back(degreesBetween(gradient, truth.normal[i]));
+    }
+    const Spread world = spreadOf(phi);
+    const Spread degrees = spreadOf(angle);
+    return {{"phi_p99", world.p99},
+            {"phi_mean", world.mean},
+            {"phi_max", world.largest},
+            {"phi_mean_vx", world.mean / voxel},
+            {"phi_p99_vx", world.p99 / voxel},
+            {"phi_max_vx", world.largest / voxel},
+            {"normal_mean_deg", degrees.mean},
+            {"normal_max_deg", degrees.largest}};
+}
+
+TradeCase measure(const LevelSetGrid& grid, const FieldOptions& choice, const std::vector<Vec3d>& points,
+                  const Truth& truth, int repetitions)
+{
+    TradeCase one;
+    std::vector<double> build;
+    std::vector<PointSample> samples(points.size());
+    for (int r = 0; r < repetitions; ++r) {
+        std::optional<DistanceField> field;
+        build.push_back(seconds([&] { field.emplace(grid, choice); }));
+        one.settings = {field->transform().voxelSize().maxCoeff(), choice, {}, {}, {}};
+        one.cost.bytes = field->memoryBytes();
+        const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+        one.cost.nsPerParticleStep.push_back(nanosecondsAPoint(
+            points.size(), [&] { samplePoints(*field, points.data(), points.size(), samples.data()); }));
+    }
+    one.cost.buildSeconds = *std::min_element(build.begin(), build.end());
+    one.errors = errorsOf(samples, truth, one.settings.voxel);
+    return one;
+}
+
+} // namespace
+
+std::vector<TradeCase> tradeLookups(const TradeSubject& subject, const TradeOptions& options, Progress& progress)
+{
+    const std::vector<Vec3d> points =
+        pointsNearSurface(DistanceField(subject.grids.front()), options.points, {-1.0, 1.0});
+    const Truth truth = truthAt(subject, points);
+    std::vector<TradeCase> cases;
+    for (const LevelSetGrid& grid : subject.grids) {
+        for (const Lookup lookup : {Lookup::Nearest, Lookup::Trilinear, Lookup::Cubic}) {
+            for (const Normal normal : {Normal::Central, Normal::Analytic}) {
+                for (const Storage storage : {Storage::Float, Storage::Half, Storage::Fixed8}) {
+                    throwIfStopped(progress);
+                    cases.push_back(measure(grid, {lookup, normal, storage}, points, truth, options.repetitions));
+                    cases.back().group = subject.name + ", lookups";
+                }
+            }
+        }
+    }
+    return cases;
+}
+
+} // namespace vdbounce::bench

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/machine.h"
+#include "bench/trade_steps.h"
+#include "option_values.h"
+#include "progress_bar.h"
+#include "report.h"
+
+#include "vdbounce/base/error.h"
+#include "vdbounce/io/mesh_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+namespace vdbounce::tool {
+namespace {
+
+struct BenchTradeArguments {
+    std::vector<std::string> files;
+    int dim = 128;
+    bench::TradeOptions options;
+};
+
+Json toJson(const bench::TradeSettings& settings)
+{
+    Json json = {{"voxel", settings.voxel},
+                 {"lookup", nameOf(settings.field.lookup)},
+                 {"normal", nameOf(settings.field.normal)},
+                 {"storage", nameOf(settings.field.storage)},
+                 {"scheme", nullptr},
+                 {"sweep", nullptr},
+                 {"dt", nullptr}};
+    if (settings.scheme) json["scheme"] = bench::nameOf(*settings.scheme);
+    if (settings.sweep) json["sweep"] = bench::nameOf(*settings.sweep);
+    if (settings.dt) json["dt"] = *settings.dt;
+    return json;
+}
+
+Json toJson(const bench::TradeCase& one)
+{
+    const std::vector<double>& times = one.cost.nsPerParticleStep;
+    Json errors = Json::object();
+    for (const auto& [name, value] : one.errors) errors[name] = value;
+    return {{"name", one.name()},
+            {"unit", "ns"},
+            {"value", one.cost.ns()},
+            {"group", one.group},
+            {"settings", toJson(one.settings)},
+            {"cost",
+             {{"ns_per_particle_step", one.cost.ns()},
+              {"build_seconds", one.cost.buildSeconds},
+              {"bytes", one.cost.bytes}}},
+            {"error", errors},
+            {"spread",
+             {{"ns_per_particle_step",
+               {*std::min_element(times.begin(), times.end()), *std::max_element(times.begin(), times.end())}}}},
+            {"pareto", one.pareto}};
+}
+
+// Those that nothing beats, the cheapest first.
+std::string textOf(std::vector<bench::TradeCase> cases)
+{
+    std::stable_sort(cases.begin(), cases.end(),
+                     [](const auto& a, const auto& b) { return a.cost.ns() < b.cost.ns(); });
+    std::vector<std::string> groups;
+    for (const bench::TradeCase& one : cases) {
+        if (std::find(groups.begin(), groups.end(), one.group) == groups.end()) groups.push_back(one.group);
+    }
+    std::string text =
+        "choices that no other beats in both cost and error; --json has all " + std::to_string(cases.size());
+    for (const std::string& group : groups) {
+        for (const bench::TradeCase& one : cases) {
+            if (one.group != group || !one.pareto) continue;
+            text += "\n" + one.name() + ": " + rounded(one.cost.ns()) + " ns, " + one.errors.front().first + " " +
+                    rounded(one.errors.front().second);
+        }
+    }
+    return text;
+}
+
+std::vector<bench::TradeSubject> subjectsOf(const BenchTradeArguments& arguments, Progress& progress)
+{
+    if (arguments.files.empty()) return bench::analyticSubjects(progress);
+    std::vector<bench::TradeSubject> subjects;
+    for (const std::string& file : arguments.files) {
+        subjects.push_back(isMeshFile(file) ? bench::meshSubject(file, arguments.dim, progress)
+                                            : bench::fieldSubject(file));
+    }
+    return subjects;
+}
+
+void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& common)
+{
+    std::vector<bench::TradeCase> cases;
+    const auto add = [&](std::vector<bench::TradeCase> some) {
+        std::move(some.begin(), some.end(), std::back_inserter(cases));
+    };
+    {
+        ProgressBar progress(common, "bench trade");
+        for (const bench::TradeSubject& subject : subjectsOf(arguments, progress))
+            add(bench::tradeLookups(subject, arguments.options, progress));
+        if (arguments.files.empty()) {
+            add(bench::tradeShots(arguments.options, progress));
+            add(bench::tradeSlides(arguments.options, progress));
+        }
+    }
+    bench::markPareto(cases);
+    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
+    for (const bench::TradeCase& one : cases) json["cases"].push_back(toJson(one));
+    report(common, json, json["machine"].get<std::string>() + "\n" + textOf(cases));
+}
+
+} // namespace
+
+void addBenchTrade(CLI::App& bench, const CommonOptions& common)
+{
+    auto arguments = std::make_shared<BenchTradeArguments>();
+    auto* trade = bench.add_subcommand("trade", "What each choice of speed costs in accuracy");
+    trade->add_option("FILE", arguments->files,
+                      "Level sets, .vdb, or meshes; without any shapes with known answers, and steps");
+    trade->add_option("--dim", arguments->dim, "Voxels on a mesh's longest side, and half and a quarter as many")
+        ->check(CLI::Range(8, 4096))
+        ->capture_default_str()
+        ->type_name("N");
+    trade->add_option("--points", arguments->options.points, "Points to look up")
+        ->check(CLI::Range(std::size_t(100), std::size_t(100'000'000)))
+        ->capture_default_str()
+        ->type_name("N");
+    trade->add_option("--shots", arguments->options.shots, "Particles to step")
+        ->check(CLI::Range(std::size_t(10), std::size_t(10'000'000)))
+        ->capture_default_str()
+        ->type_name("N");
+    trade->add_option("--repetitions", arguments->options.repetitions, "Runs, of which the median is printed")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->type_name("N");
+    trade->footer("Example:\n  vdbounce bench trade bunny.obj --dim 128 --json");
+    trade->callback([arguments, &common] { runWith(common, [&] { runBenchTrade(*arguments, common); }); });
+}
+
+} // namespace vdbounce::tool
