@@ -24,7 +24,7 @@ while read -r file; do
     grep -q 'SPDX-License-Identifier: Apache-2.0' "$file" || complain "$file: no licence line"
     lines=$(wc -l <"$file")
     if [[ $file != tests/* ]] && [ "$lines" -gt 300 ]; then complain "$file: $lines lines, at most 300"; fi
-done < <(find lib tools tests examples cmake .ci dev -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.cmake' -o -name dev -o -name run \))
+done < <(find lib tools tests examples cmake .ci dev -name node_modules -prune -o -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.cmake' -o -name '*.js' -o -name '*.css' -o -name '*.html' -o -name dev -o -name run \) -print)
 
 if hits=$(grep -lE '#include <openvdb/' lib/vdbounce/*/*.h | grep -vE 'io/(openvdb_grid|vdb_archive)\.h$'); then
     complain "public headers that include OpenVDB: $hits"
@@ -32,7 +32,7 @@ fi
 for name in utils util misc common helpers; do
     if hits=$(find lib tools tests -name "$name.*"); [ -n "$hits" ]; then complain "a file for leftovers: $hits"; fi
 done
-if hits=$(grep -rnE '/(work|home|root)/' --include='*' lib tools tests examples cmake docs README.md dev .ci CMakeLists.txt 2>/dev/null | grep -v 'tests/structure.sh'); then
+if hits=$(grep -rnE '/(work|home|root)/' --include='*' --exclude-dir=node_modules lib tools tests examples cmake docs README.md dev .ci CMakeLists.txt 2>/dev/null | grep -v 'tests/structure.sh'); then
     complain "a path of one machine:"$'\n'"$hits"
 fi
 exit $failed

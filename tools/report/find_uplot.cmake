@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sets VDBOUNCE_UPLOT to the folder of the uPlot that package.json names: one given with -DVDBOUNCE_UPLOT=FOLDER, that of
+# `npm ci` run here by hand, or that which npm puts into the build folder now.
+file(READ ${CMAKE_CURRENT_SOURCE_DIR}/package.json text)
+string(JSON wanted GET "${text}" dependencies uplot)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS package.json package-lock.json)
+
+# An older one that an earlier build fetched is no reason to go on with it.
+function(is_wanted_uplot result folder)
+  set(${result} FALSE PARENT_SCOPE)
+  if(EXISTS ${folder}/package.json)
+    file(READ ${folder}/package.json text)
+    string(JSON version GET "${text}" version)
+    if(version STREQUAL wanted)
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
+
+set(here ${CMAKE_CURRENT_SOURCE_DIR}/node_modules/uplot)
+set(fetched ${CMAKE_CURRENT_BINARY_DIR}/npm/node_modules/uplot)
+if(VDBOUNCE_UPLOT)
+  return()
+endif()
+is_wanted_uplot(is_here ${here})
+if(is_here)
+  set(VDBOUNCE_UPLOT ${here})
+  return()
+endif()
+
+is_wanted_uplot(is_fetched ${fetched})
+if(NOT is_fetched)
+  find_program(VDBOUNCE_NPM npm)
+  if(NOT VDBOUNCE_NPM)
+    message(FATAL_ERROR "The report page needs npm, which is not here: ./dev build installs it, or leave the page out with "
+                        "-DVDBOUNCE_REPORT=OFF")
+  endif()
+  message(STATUS "Fetching uPlot ${wanted} with npm")
+  file(COPY package.json package-lock.json DESTINATION ${CMAKE_CURRENT_BINARY_DIR}/npm)
+  execute_process(COMMAND ${VDBOUNCE_NPM} ci --ignore-scripts --no-audit --no-fund
+                  WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/npm
+                  RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(code)
+    message(FATAL_ERROR "npm could not fetch uPlot ${wanted} for the report page: unpack it yourself and give "
+                        "-DVDBOUNCE_UPLOT=FOLDER, or leave the page out with -DVDBOUNCE_REPORT=OFF\n${output}")
+  endif()
+endif()
+set(VDBOUNCE_UPLOT ${fetched})

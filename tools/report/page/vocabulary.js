@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the keys of the run's JSON are called on the page. A key that is missing here is shown by its own name.
+
+const SETTING_NAMES = {
+  voxel: "voxel",
+  lookup: "lookup",
+  normal: "normal",
+  storage: "storage",
+  scheme: "scheme",
+  sweep: "sweep",
+  dt: "time step",
+};
+
+// In the unit that a setting's values are read with; other settings are words.
+const SETTING_UNITS = { dt: "s" };
+
+const COST_NAMES = {
+  ns_per_particle_step: { label: "time per particle and step", short: "time", unit: "ns" },
+  build_seconds: { label: "time to build the field", short: "build time", unit: "s" },
+  bytes: { label: "memory of the field", short: "memory", unit: "B" },
+};
+
+const ERROR_NAMES = {
+  phi_mean_vx: { label: "distance error, mean", short: "distance, mean", unit: "vx" },
+  phi_p99_vx: { label: "distance error, 99th percentile", short: "distance, p99", unit: "vx" },
+  phi_max_vx: { label: "distance error, largest", short: "distance, largest", unit: "vx" },
+  phi_mean: { label: "distance error, mean", short: "distance, mean", unit: "" },
+  phi_p99: { label: "distance error, 99th percentile", short: "distance, p99", unit: "" },
+  phi_max: { label: "distance error, largest", short: "distance, largest", unit: "" },
+  normal_mean_deg: { label: "normal error, mean", short: "normal, mean", unit: "°" },
+  normal_max_deg: { label: "normal error, largest", short: "normal, largest", unit: "°" },
+  time_of_impact_s: { label: "time of impact, error", short: "time of impact", unit: "s" },
+  place_of_impact_vx: { label: "place of impact, error", short: "place of impact", unit: "vx" },
+  penetration_vx: { label: "penetration", unit: "vx" },
+  energy_drift: { label: "energy drift", unit: "of 1" },
+  sliding_distance_relative: { label: "sliding distance, error", short: "sliding distance", unit: "of 1" },
+};
+
+// What units are called where there is room for words.
+const UNIT_WORDS = { ns: "ns", s: "seconds", B: "bytes", vx: "voxels", "": "world units", "°": "degrees", "of 1": "relative" };
+
+// The error shown first: in world units, which compare across voxel sizes.
+const FIRST_ERRORS = ["phi_p99", "phi_p99_vx", "place_of_impact_vx"];
