@@ -49,6 +49,34 @@ def check_view(open_it, address, cases, total, cost, error):
     return document
 
 
+# What a reader does: keep one lookup, sort by memory, go down the table with the keys.
+READER = """<script>
+[...document.querySelectorAll("#filters button")].find((button) => button.textContent === "cubic").click();
+document.querySelector('[data-key="bytes"]').click();
+document.querySelector('[data-key="bytes"]').click();
+setTimeout(() => {
+  document.querySelector("tbody tr").focus();
+  document.activeElement.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowDown", bubbles: true }));
+}, 100);
+document.body.dataset.address = location.hash;
+</script></body>"""
+
+
+def check_reader(page, folder):
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    with open(f"{folder}/reader.html", "w", encoding="utf-8") as file:
+        file.write(text.replace("</body>", READER))
+    document = open_page(f"{folder}/reader.html", folder)
+    assert attribute(document, "points-shown") == 30
+    assert 'data-address="#sort=-bytes&amp;lookup=cubic"' in document, re.search(r'data-address="[^"]*"', document)
+    assert 'aria-sort="descending"' in document
+    tip = re.search(r'<div id="tip"[^>]*>.*?</div></dl></div>', document).group(0)
+    for words in ("<dt>lookup</dt><dd>cubic</dd>", "<dt>memory</dt><dd>49.9 MB</dd>", "<dt>normal, largest</dt>"):
+        assert words in tip, (words, tip)
+    assert "hidden" not in tip.split(">")[0]
+
+
 def main():
     program, folder = sys.argv[1], os.path.abspath(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
@@ -77,6 +105,7 @@ def main():
     # What the run does not have is left out of an address.
     check_view(open_it, "group=cube&x=money&lookup=psychic&100%", groups["sphere, lookups"], 90, "ns_per_particle_step",
                "phi_p99")
+    check_reader(page, folder)
 
 
 main()

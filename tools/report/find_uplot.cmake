@@ -41,8 +41,8 @@ if(NOT is_fetched)
                   WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/npm
                   RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(code)
-    message(FATAL_ERROR "npm could not fetch uPlot ${wanted} for the report page: unpack it yourself and give "
-                        "-DVDBOUNCE_UPLOT=FOLDER, or leave the page out with -DVDBOUNCE_REPORT=OFF\n${output}")
+    message(FATAL_ERROR "npm could not fetch uPlot ${wanted} for the report page: give its unpacked package "
+                        "with -DVDBOUNCE_UPLOT=FOLDER, or leave the page out with -DVDBOUNCE_REPORT=OFF\n${output}")
   endif()
 endif()
 set(VDBOUNCE_UPLOT ${fetched})
