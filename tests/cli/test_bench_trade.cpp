@@ -138,4 +138,7 @@ TEST_CASE("bench trade takes meshes and level sets")
     CHECK(errorOf(one, "phi_mean_vx") > 1e-4);
     CHECK(runTool("bench trade missing.vdb").exitCode == 3);
     CHECK(runTool("bench trade --points 1").exitCode == 2);
+    // Before measuring.
+    CHECK(runTool("bench trade --html missing/trade.html").exitCode == 2);
+    CHECK(runTool("bench trade --html trade.txt").exitCode == 2);
 }

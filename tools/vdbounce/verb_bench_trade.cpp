@@ -4,6 +4,7 @@
 #include "option_values.h"
 #include "progress_bar.h"
 #include "report.h"
+#include "report/report_page.h"
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/io/mesh_file.h"
@@ -19,7 +20,18 @@ struct BenchTradeArguments {
     std::vector<std::string> files;
     int dim = 128;
     bench::TradeOptions options;
+    std::string html;
 };
+
+// That repeats the run.
+std::string commandOf(const BenchTradeArguments& arguments)
+{
+    const bench::TradeOptions& options = arguments.options;
+    std::string text = "vdbounce bench trade";
+    for (const std::string& file : arguments.files) text += " " + file;
+    return text + " --dim " + std::to_string(arguments.dim) + " --points " + std::to_string(options.points) +
+           " --shots " + std::to_string(options.shots) + " --repetitions " + std::to_string(options.repetitions);
+}
 
 Json toJson(const bench::TradeSettings& settings)
 {
@@ -89,8 +101,20 @@ std::vector<bench::TradeSubject> subjectsOf(const BenchTradeArguments& arguments
     return subjects;
 }
 
+// Before minutes of measuring.
+void requirePage(const BenchTradeArguments& arguments)
+{
+    if (arguments.html.empty()) return;
+    requireOutput(arguments.html, {"html"}, arguments.files);
+    const std::filesystem::path folder = std::filesystem::path(arguments.html).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw UsageError(arguments.html, "lies in a folder that does not exist", "make the folder first");
+    if (!report::hasReportPage()) report::writeReportPage("", "", arguments.html); // tells what this build lacks
+}
+
 void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& common)
 {
+    requirePage(arguments);
     std::vector<bench::TradeCase> cases;
     const auto add = [&](std::vector<bench::TradeCase> some) {
         std::move(some.begin(), some.end(), std::back_inserter(cases));
@@ -105,8 +129,9 @@ void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& co
         }
     }
     bench::markPareto(cases);
-    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
+    Json json = {{"machine", bench::machineText()}, {"command", commandOf(arguments)}, {"cases", Json::array()}};
     for (const bench::TradeCase& one : cases) json["cases"].push_back(toJson(one));
+    if (!arguments.html.empty()) report::writeReportPage(json.dump(), commandOf(arguments), arguments.html);
     report(common, json, json["machine"].get<std::string>() + "\n" + textOf(cases));
 }
 
@@ -134,7 +159,11 @@ void addBenchTrade(CLI::App& bench, const CommonOptions& common)
         ->check(CLI::Range(1, 1000))
         ->capture_default_str()
         ->type_name("N");
-    trade->footer("Example:\n  vdbounce bench trade bunny.obj --dim 128 --json");
+    trade
+        ->add_option("--html", arguments->html,
+                     "Write a page with the curves of error over cost, which opens from disk")
+        ->type_name("REPORT.html");
+    trade->footer("Example:\n  vdbounce bench trade bunny.obj --html trade.html");
     trade->callback([arguments, &common] { runWith(common, [&] { runBenchTrade(*arguments, common); }); });
 }
 
