@@ -3,7 +3,7 @@
 
 #include "vdbounce/base/error.h"
 
-// Compiled in place of report_page.cpp with VDBOUNCE_REPORT=OFF.
+// Compiled in place of report_page.cpp with VDBOUNCE_REPORT=OFF, and with AUTO where uPlot is not to be had.
 
 namespace vdbounce::report {
 
@@ -12,7 +12,7 @@ bool hasReportPage() { return false; }
 void writeReportPage(const std::string&, const std::string&, const std::string& path)
 {
     throw RunError(path, "this build of vdbounce has no report page",
-                   "build with -DVDBOUNCE_REPORT=ON, as ./dev build does, or use --json");
+                   "build with -DVDBOUNCE_REPORT=ON where npm has a network, or use --json");
 }
 
 } // namespace vdbounce::report
