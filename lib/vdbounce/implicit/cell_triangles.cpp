@@ -51,6 +51,20 @@ void addTetrahedron(const Corner (&corner)[4], std::vector<PatchTriangle>& trian
     triangles.push_back({crossing(*alone, *others[0]), crossing(*alone, *others[1]), crossing(*alone, *others[2])});
 }
 
+// As triangles that are points. A solid's corner that one of these diagonals ends in would be cut off, as much as 0.8
+// voxels deep, even where the value at its very tip is zero.
+void addCrossingsOfOtherDiagonals(const Corner (&corners)[8], std::vector<PatchTriangle>& triangles)
+{
+    for (int a = 0; a < 8; ++a) {
+        for (int b = a + 1; b < 8; ++b) {
+            const bool edge = (a & b) == a || (a & b) == b;
+            if (edge || (corners[a].value < 0.0f) == (corners[b].value < 0.0f)) continue;
+            const Vector3f point = crossing(corners[a], corners[b]);
+            triangles.push_back({point, point, point});
+        }
+    }
+}
+
 } // namespace
 
 void addTriangles(const float* cell, const VoxelMetric& metric, SurfacePatch& patch,
@@ -69,6 +83,7 @@ void addTriangles(const float* cell, const VoxelMetric& metric, SurfacePatch& pa
         const Corner tetrahedron[4] = {corners[t[0]], corners[t[1]], corners[t[2]], corners[t[3]]};
         addTetrahedron(tetrahedron, triangles);
     }
+    addCrossingsOfOtherDiagonals(corners, triangles);
     patch.firstTriangle = std::uint32_t(first);
     patch.triangles = std::uint32_t(triangles.size() - first);
     // Its point is the one closest to the mean of all, which may lie beside the surface.

@@ -120,6 +120,17 @@ private:
     int count_ = 0;
 };
 
+// Points and needles have no normal, and the way past them may lead beyond the surface's end.
+bool isUpright(const PatchTriangle& triangle, const Eigen::Vector3f& way)
+{
+    constexpr float kUprightSquared = 0.9f; // the cosine's: within 18 degrees
+    if (!(way.squaredNorm() > 0.0f)) return true;
+    const Eigen::Vector3f normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
+    const float along = normal.dot(way);
+    const float both = normal.squaredNorm() * way.squaredNorm();
+    return both > 0.0f && along * along >= kUprightSquared * both;
+}
+
 Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, const VoxelMetric& metric,
                      const float (&q)[3])
 {
@@ -129,13 +140,12 @@ Foot footOnTriangles(const FittedSurface& surface, const SurfacePatch& patch, co
     for (std::uint32_t t = 0; t < patch.triangles; ++t) {
         const PatchTriangle& triangle = surface.triangles[patch.firstTriangle + t];
         const Eigen::Vector3f way = closestPoint(triangle, from) - from;
-        if (!(way.squaredNorm() < foot.squared)) continue;
-        foot.squared = way.squaredNorm();
+        const float squared = way.squaredNorm();
+        if (!(squared <= foot.squared)) continue;
+        // One of the triangles that share a point is enough.
+        foot.upright = isUpright(triangle, way) || (squared == foot.squared && foot.upright);
+        foot.squared = squared;
         best = way;
-        const Eigen::Vector3f normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
-        const float along = normal.dot(way);
-        constexpr float kUprightSquared = 0.9f; // the cosine's: within 18 degrees
-        foot.upright = along * along >= kUprightSquared * normal.squaredNorm() * way.squaredNorm();
     }
     const Vec3d way = metric.toIndex * best.cast<double>();
     for (int a = 0; a < 3; ++a) foot.way[a] = float(way[a]);

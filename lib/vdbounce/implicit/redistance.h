@@ -46,15 +46,16 @@ struct RedistanceOptions {
 /// closest point would be on the missing part stay inactive, so the band ends about where the surface does.
 ///
 /// Error: where the function is smooth and the surface's radii of curvature are R voxels, at most some 0.8/R^3 voxels
-/// (a sphere of 50 voxels, band 3: 5e-6). Edges and corners are known no better than their cell: up to half a voxel at
-/// an edge, 0.8 at a corner of three, little two voxels beside it. Features that no sign change between neighbouring
-/// voxels shows do not exist.
+/// (a sphere of 50 voxels, band 3: 5e-6). Edges and corners are known no better than their cell: of right angles some
+/// half a voxel at an edge, 0.8 at a corner of three, little two voxels beside it; outside, nothing where they pass
+/// through voxel centres and values are zero there; at sharper edges more. Features that no sign change between
+/// neighbouring voxels shows do not exist.
 ///
 /// Method: each cell with a sign change gets a cubic polynomial fitted to the 32 voxels in it and beside its faces, or,
-/// where that is not smooth, the triangles of marching tetrahedra. Points of these patches are handed from voxel to
-/// voxel (vector distance transform, Danielsson 1980); each voxel then finds the closest point of its patch by Newton's
-/// method, which improves on the alternation of Chopp (2001). So the error does not grow with the distance, as it
-/// does when phi itself is swept outwards.
+/// where that is not smooth, the triangles of marching tetrahedra and the crossings of the cell's diagonals. Points of
+/// these patches are handed from voxel to voxel (vector distance transform, Danielsson 1980); each voxel then finds the
+/// closest point of its patch by Newton's method, which improves on the alternation of Chopp (2001). So the error does
+/// not grow with the distance, as it does when phi itself is swept outwards.
 ///
 /// The same bits for any number of threads and any processor. Memory besides the result: 10 KB for each 8^3 leaf within
 /// the band, and 120 bytes for each cell on the surface.
