@@ -111,3 +111,25 @@ TEST_CASE("of flush faces subtraction leaves a sheet without inside, which redis
     const DistanceField gone(made(CsgOperation::Subtraction, a, b, options));
     CHECK(gone.phi(Vec3d(0, 8.3, 0)) == Approx(3.0));
 }
+
+TEST_CASE("of a without a a sheet is left, with a note that there is no inside")
+{
+    const LevelSetGrid a = bandLevelSet(turnedBox(Vec3d(8, 6, 20), Mat3d::Identity(), Vec3d(0, 0.3, 0)), 24);
+    const GridCsg sheet = csg(CsgOperation::Subtraction, a, a);
+    CHECK(toOpenVdb(sheet.grid).activeVoxelCount() == toOpenVdb(a).activeVoxelCount());
+    REQUIRE(sheet.notes.size() == 1);
+    CHECK_THAT(sheet.notes[0], Catch::StartsWith("the result has no inside, only "));
+    // Solids a voxel apart have nothing in common, but both bands there.
+    const LevelSetGrid beside = bandLevelSet(turnedBox(Vec3d(3, 3, 3), Mat3d::Identity(), Vec3d(12, 0, 0)), 24);
+    CHECK(csg(CsgOperation::Intersection, a, beside).notes == sheet.notes);
+    // Less one that is shorter only an end of it is left inside, the rest of it being a sheet.
+    const LevelSetGrid nearly = bandLevelSet(turnedBox(Vec3d(8, 6, 19), Mat3d::Identity(), Vec3d(0, 0.3, -1)), 24);
+    CHECK(csg(CsgOperation::Subtraction, a, nearly).notes.empty());
+    CHECK(csg(CsgOperation::Union, a, beside).notes.empty());
+
+    GridCsgOptions options;
+    options.redistance = true;
+    const GridCsg gone = csg(CsgOperation::Subtraction, a, a, options);
+    CHECK(toOpenVdb(gone.grid).activeVoxelCount() == 0);
+    CHECK(gone.notes == std::vector<std::string>{"the result is empty"});
+}

@@ -156,6 +156,27 @@ void noteBands(CsgOperation operation, const CsgBand& a, const CsgBand& b, doubl
 
 bool holdsNothing(const FloatGrid& grid) { return grid.tree().root().empty(); }
 
+bool hasInside(const FloatGrid& grid)
+{
+    // Leaves first: at most results the first few settle it, while tiles are looked for among all entries of a node.
+    if (hasVoxelInside(grid)) return true;
+    auto tile = grid.tree().cbeginValueAll();
+    tile.setMaxDepth(openvdb::FloatTree::ValueAllCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile) {
+        if (*tile < 0.0f) return true;
+    }
+    return false;
+}
+
+void noteWhatIsLeft(const FloatGrid& grid, bool redistance, std::vector<std::string>& notes)
+{
+    if (!holdsNothing(grid) && hasInside(grid)) return;
+    const bool empty = holdsNothing(grid) || redistance; // which leaves nothing of sheets
+    notes.push_back(empty ? "the result is empty"
+                          : "the result has no inside, only phi of 0 and more where faces lie in each other or close "
+                            "together");
+}
+
 LevelSetGrid finished(FloatGrid::Ptr grid, const GridCsgOptions& options, const std::string& name, Progress& progress)
 {
     const std::string called = options.name.empty() ? name : options.name;
@@ -189,7 +210,7 @@ GridCsg csg(CsgOperation operation, const LevelSetGrid& first, const LevelSetGri
     requireBand(rule, voxel);
     auto grid = levelSetLike(*operands.a, combineTrees(rule, operands.a->tree(), operands.b->tree(), progress));
     setEndlessBox(*grid, ends);
-    if (holdsNothing(*grid)) result.notes.push_back("the result is empty");
+    noteWhatIsLeft(*grid, options.redistance, result.notes);
     result.grid = finished(std::move(grid), options, toOpenVdb(first).getName(), progress);
     return result;
 }

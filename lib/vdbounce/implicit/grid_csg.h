@@ -28,7 +28,8 @@ struct GridCsgOptions {
 
 struct GridCsg {
     LevelSetGrid grid;
-    std::vector<std::string> notes; ///< what was done besides, a sentence each: resampling, bands made narrower
+    std::vector<std::string> notes; ///< what was done besides, a sentence each: resampling, bands made narrower; and
+                                    ///< when nothing is inside
 };
 
 /// A set operation on the solids of two level sets, grid point by grid point: min(a, b) for the union, max(a, b) for

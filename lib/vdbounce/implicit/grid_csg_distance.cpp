@@ -7,7 +7,7 @@
 #include "vdbounce/implicit/grid_csg_trees.h"
 #include "vdbounce/implicit/redistance.h"
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 
 namespace vdbounce {
@@ -23,18 +23,6 @@ std::vector<const Leaf*> leavesOf(const FloatGrid& grid)
     std::vector<const Leaf*> leaves;
     grid.tree().getNodes(leaves);
     return leaves;
-}
-
-// A surface lies between values of both signs; a grid of a surface has leaves that hold it.
-bool nothingInside(const FloatGrid& grid)
-{
-    const std::vector<const Leaf*> leaves = leavesOf(grid);
-    std::atomic<bool> found{false};
-    forEachIndex(leaves.size(), kLeavesPerTask, [&](std::size_t i) {
-        const float* values = leaves[i]->buffer().data();
-        if (*std::min_element(values, values + Leaf::SIZE) < 0.0f) found = true;
-    });
-    return !found;
 }
 
 // The same tree, for changes: nobody else holds it.
@@ -54,13 +42,22 @@ void restore(const FloatGrid& known, FloatGrid& grid)
 
 } // namespace
 
+bool hasVoxelInside(const FloatGrid& grid)
+{
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const float* values = leaf->buffer().data();
+        if (*std::min_element(values, values + Leaf::SIZE) < 0.0f) return true;
+    }
+    return false;
+}
+
 FloatGrid::Ptr redistanced(const FloatGrid& grid, const CsgBand& band, Progress& progress)
 {
     if (endlessBox(grid)) {
         const CsgBand turned{band.interior, band.exterior};
         return complementOf(*redistanced(*complementOf(grid, progress), turned, progress), progress);
     }
-    if (nothingInside(grid)) return levelSetLike(grid, std::make_shared<openvdb::FloatTree>(band.exterior));
+    if (!hasVoxelInside(grid)) return levelSetLike(grid, std::make_shared<openvdb::FloatTree>(band.exterior));
     RedistanceOptions options;
     options.exterior = Length{double(band.exterior), false};
     options.interior = Length{double(std::isinf(band.interior) ? band.exterior : band.interior), false};
@@ -76,7 +73,7 @@ FloatGrid::ConstPtr widened(const FloatGrid::ConstPtr& grid, const CsgBand& band
         return complementOf(*widened(complementOf(*grid, progress), turned, progress), progress);
     }
     const LevelSetGrid handle = toLevelSetGrid(grid, "grid '" + grid->getName() + "'");
-    if (nothingInside(*grid) || DistanceField(handle).clipped()) return grid;
+    if (!hasVoxelInside(*grid) || DistanceField(handle).clipped()) return grid;
     CsgBand wide;
     wide.exterior = std::max(band.exterior, present.exterior);
     wide.interior = std::isinf(present.interior) ? wide.exterior : std::max(band.interior, present.interior);

@@ -10,6 +10,10 @@
 
 namespace vdbounce {
 
+/// Whether any voxel of a leaf is inside: where none is there is no surface, which lies between values of both signs.
+/// Ends at the first.
+bool hasVoxelInside(const openvdb::FloatGrid& grid);
+
 /// True distances in that band; without a voxel where nothing is inside. The side of the box of a grid without end,
 /// which only stands for what goes on beyond, is no surface.
 openvdb::FloatGrid::Ptr redistanced(const openvdb::FloatGrid& grid, const CsgBand& band, Progress& progress);
