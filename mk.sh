@@ -1,1 +1,0 @@
-g++ -std=c++17 -O3 -DNDEBUG -mavx2 -mfma -I/work/main/lib -I/work/main/tools -isystem /usr/include/eigen3 -isystem /usr/include/Imath $1.cpp -o $1 /work/main/build/fast/tools/bench/libvdbounce_bench.a /work/main/build/fast/lib/libvdbounce.a -lopenvdb -ltbb -lpng -lhwy -lImath-3_1 -lboost_iostreams -lz
