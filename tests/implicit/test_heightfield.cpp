@@ -51,8 +51,7 @@ long double segmentDistance(const Long& p, const Long& a, const Long& b)
     return (p - a - std::min(1.0L, std::max(0.0L, share)) * (b - a)).norm();
 }
 
-// base/triangle_distance.h projects by differences of products, which in triangles ten thousand times as high as wide
-// loses half of double's digits.
+// In long double, so that what is compared with it is the only one to lose digits.
 long double triangleDistance(const Long& p, const Long& a, const Long& b, const Long& c)
 {
     const Long normal = (b - a).cross(c - a);

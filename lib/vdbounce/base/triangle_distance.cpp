@@ -9,8 +9,12 @@
 namespace vdbounce {
 namespace {
 
-// Squared sine of the angle at a below which the projection onto the triangle's plane is not trusted alone.
-constexpr double kSliver = 1e-6;
+// Height over length, squared, below which a triangle's Voronoi regions lose digits: theirs are differences of products
+// as large as the length, while what is left of them goes with the height.
+constexpr double kSliver = 1e-4;
+
+// Squared sine of the angle at a below which what is given at the corners is told by the longest edge alone.
+constexpr double kFlat = 1e-6;
 
 // start + t (end - start) for the t in [0, 1] closest to p.
 Vec3d closestOnSegment(const Vec3d& p, const Vec3d& start, const Vec3d& end)
@@ -29,6 +33,31 @@ Vec3d closestOnEdges(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d
         if ((candidate - p).squaredNorm() < (*best - p).squaredNorm()) best = &candidate;
     }
     return *best;
+}
+
+// In the triangle's own frame, its longest edge along x: rounding then moves its corners by no more than it would move
+// p.
+Vec3d closestOnSliver(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+    const double bc2 = (c - b).squaredNorm();
+    const double ca2 = (a - c).squaredNorm();
+    const double ab2 = (b - a).squaredNorm();
+    if (bc2 > ab2 && bc2 >= ca2) return closestOnSliver(p, b, c, a);
+    if (ca2 > ab2) return closestOnSliver(p, c, a, b);
+    const double length = std::sqrt(ab2);
+    if (!(length > 0.0)) return a;
+    const Vec3d along = (b - a) / length;
+    const Vec3d toTip = c - a;
+    const double tip = toTip.dot(along);
+    Vec3d up = toTip - tip * along;
+    up -= up.dot(along) * along; // of what the first time left, rounding is a large part
+    const double height = up.norm();
+    if (!(height > 0.0)) return closestOnEdges(p, a, b, c);
+    up /= height;
+    const double x = (p - a).dot(along);
+    const double y = (p - a).dot(up);
+    const bool within = y >= 0.0 && y * tip <= x * height && y * (length - tip) <= (length - x) * height;
+    return within ? a + x * along + y * up : closestOnEdges(p, a, b, c);
 }
 
 } // namespace
@@ -52,23 +81,25 @@ Vec3d closestPointOnTriangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, con
     const double d6 = ac.dot(cp);
     if (d6 >= 0.0 && d5 <= d6) return c;
 
+    const double ab2 = ab.squaredNorm();
+    const double ac2 = ac.squaredNorm();
+    const double both = ab.dot(ac);
+    const double longest2 = std::max(std::max(ab2, ac2), ab2 + ac2 - 2.0 * both);
+    if (!(ab2 * ac2 - both * both > kSliver * longest2 * longest2)) return closestOnSliver(p, a, b, c);
+
     const double va = d3 * d6 - d5 * d4;
     const double vb = d5 * d2 - d1 * d6;
     const double vc = d1 * d4 - d3 * d2;
     const double area2 = va + vb + vc; // |ab x ac|^2
     if (!(area2 > 0.0) || va <= 0.0 || vb <= 0.0 || vc <= 0.0) return closestOnEdges(p, a, b, c);
-    const Vec3d within = a + ab * (vb / area2) + ac * (vc / area2);
-    if (area2 > kSliver * ab.squaredNorm() * ac.squaredNorm()) return within;
-    // In a sliver rounding moves the projection; its edges are never far and always certain.
-    const Vec3d beside = closestOnEdges(p, a, b, c);
-    return (beside - p).squaredNorm() < (within - p).squaredNorm() ? beside : within;
+    return a + ab * (vb / area2) + ac * (vc / area2);
 }
 
 Vec3d closestWeights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
     const Vec3d at = closestPointOnTriangle(p, a, b, c);
     const Vec3d normal = (b - a).cross(c - a);
-    if (normal.squaredNorm() > kSliver * (b - a).squaredNorm() * (c - a).squaredNorm()) {
+    if (normal.squaredNorm() > kFlat * (b - a).squaredNorm() * (c - a).squaredNorm()) {
         const double weightB = (at - a).cross(c - a).dot(normal) / normal.squaredNorm();
         const double weightC = (b - a).cross(at - a).dot(normal) / normal.squaredNorm();
         return Vec3d(1.0 - weightB - weightC, weightB, weightC);
