@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/machine.h"
 #include "bench/trade_steps.h"
+#include "bench_report.h"
 #include "option_values.h"
 #include "progress_bar.h"
 #include "report.h"
@@ -155,10 +156,7 @@ void addBenchTrade(CLI::App& bench, const CommonOptions& common)
         ->check(CLI::Range(std::size_t(10), std::size_t(10'000'000)))
         ->capture_default_str()
         ->type_name("N");
-    trade->add_option("--repetitions", arguments->options.repetitions, "Runs, of which the median is printed")
-        ->check(CLI::Range(1, 1000))
-        ->capture_default_str()
-        ->type_name("N");
+    addRepetitions(*trade, arguments->options.repetitions);
     trade
         ->add_option("--html", arguments->html,
                      "Write a page with the curves of error over cost, which opens from disk")

@@ -15,8 +15,6 @@
 namespace vdbounce {
 namespace {
 
-constexpr double kBytesPerLeaf = 2300.0; // its values, its mask, its place in the tree
-
 void validate(const BlobOptions& options)
 {
     requireVoxelSize(options.voxelSize, "particles");

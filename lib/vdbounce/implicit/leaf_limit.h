@@ -9,6 +9,9 @@
 
 namespace vdbounce {
 
+/// Of a finished grid: its values, its mask, its place in the tree and on the way down.
+constexpr double kBytesPerLeaf = 2300.0;
+
 /// How many leaves of `bytesPerLeaf` fit into `maxMemory` bytes; 0: three quarters of the machine's.
 std::uint64_t leavesWithin(std::uint64_t maxMemory, double bytesPerLeaf);
 

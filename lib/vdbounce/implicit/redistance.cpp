@@ -22,7 +22,7 @@ namespace {
 constexpr double kDefaultBandVx = 3.0;
 
 // While closest points are sought, and the result.
-constexpr double kBytesPerLeaf = sizeof(FootLeaf) + 2300.0;
+constexpr double kBytesPerWorkedLeaf = sizeof(FootLeaf) + kBytesPerLeaf;
 
 double bandVx(const char* name, const std::optional<Length>& given, const openvdb::FloatGrid& grid, double unit)
 {
@@ -71,7 +71,7 @@ LevelSetGrid redistance(const ScalarGrid& implicit, const RedistanceOptions& opt
     if (surface.patches.empty()) throwWithoutSurface(grid, place, options.iso);
     progress.update(1, kStages);
     FootLeaves feet = findFeet(surface, metric, float(std::max(exterior, interior)),
-                               leavesWithin(options.maxMemory, kBytesPerLeaf), progress);
+                               leavesWithin(options.maxMemory, kBytesPerWorkedLeaf), progress);
     progress.update(2, kStages);
     const DistanceBand band{bandWidth(exterior * metric.unit), bandWidth(interior * metric.unit)};
     LevelSetGrid result = assembleDistances(std::move(feet), surface, samples, metric, band,

@@ -15,7 +15,6 @@
 namespace vdbounce {
 namespace {
 
-constexpr double kBytesPerLeaf = 2300.0; // its values, its mask, its place in the tree and on the way down
 constexpr std::size_t kLeavesPerReport = 1024;
 
 using Tree = openvdb::FloatTree;
