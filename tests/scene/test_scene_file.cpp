@@ -98,7 +98,7 @@ TEST_CASE("a wrong scene is refused by name and line")
         {"[time]\n\ndt = -1.0\n", ":3", "time.dt = -1 is out of range"},
         {"[time]\nframes = 1.5\n", ":2", "whole number"},
         {"[world]\ngravity = [0, 1]\n", ":2", "three numbers"},
-        {"[contact]\nscheme = \"bounce\"\n", ":2", "use one of: collide-contact"},
+        {"[contact]\nscheme = \"bounce\"\n", ":2", "use one of: once, iterate, collide-contact"},
         {"[[collider]]\nfile = \"a.vdb\"\nrestitution = 1.5\n", ":3", "collider[0].restitution = 1.5 is out of range"},
         {"[[collider]]\nname = \"a\"\nfile = \"a.vdb\"\nfrictoin = 1\n", ":4", "unknown key 'collider 'a'.frictoin'"},
         {"[[collider]]\nname = \"a\"\n", ":1", "exactly one"},

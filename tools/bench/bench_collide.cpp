@@ -7,8 +7,8 @@
 #include "bench/thread_counts.h"
 
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/base/random_numbers.h"
 #include "vdbounce/build/mesh_to_level_set.h"
-#include "vdbounce/build/random_numbers.h"
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/io/openvdb_grid.h"
 

@@ -3,7 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/build/random_numbers.h"
+#include "vdbounce/base/random_numbers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,31 +11,10 @@ namespace vdbounce::bench {
 
 double TradeCost::ns() const { return median(nsPerParticleStep); }
 
-const char* nameOf(Scheme scheme)
-{
-    switch (scheme) {
-    case Scheme::Once: return "once";
-    case Scheme::Iterate: return "iterate";
-    case Scheme::CollideContact: break;
-    }
-    return "collide-contact";
-}
-
-const char* nameOf(Sweep sweep)
-{
-    switch (sweep) {
-    case Sweep::Always: return "always";
-    case Sweep::Never: return "never";
-    case Sweep::Auto: break;
-    }
-    return "auto";
-}
-
 std::string TradeCase::name() const
 {
-    std::string text = group + ", voxel " + numberText(settings.voxel) + ", " +
-                       vdbounce::nameOf(settings.field.lookup) + ", " + vdbounce::nameOf(settings.field.normal) + ", " +
-                       vdbounce::nameOf(settings.field.storage);
+    std::string text = group + ", voxel " + numberText(settings.voxel) + ", " + nameOf(settings.field.lookup) + ", " +
+                       nameOf(settings.field.normal) + ", " + nameOf(settings.field.storage);
     if (settings.scheme) text += std::string(", ") + nameOf(*settings.scheme);
     if (settings.sweep) text += std::string(", sweep ") + nameOf(*settings.sweep);
     if (settings.dt) text += ", dt " + numberText(*settings.dt);

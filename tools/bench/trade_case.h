@@ -44,7 +44,4 @@ struct TradeCase {
 /// Finds out which are.
 void markPareto(std::vector<TradeCase>& cases);
 
-const char* nameOf(Scheme scheme);
-const char* nameOf(Sweep sweep);
-
 } // namespace vdbounce::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/trade_ways.h"
 
-#include "vdbounce/build/random_numbers.h"
+#include "vdbounce/base/random_numbers.h"
 #include "vdbounce/contact/step.h"
 
 #include <cmath>

@@ -43,8 +43,8 @@ Json toJson(const bench::TradeSettings& settings)
                  {"scheme", nullptr},
                  {"sweep", nullptr},
                  {"dt", nullptr}};
-    if (settings.scheme) json["scheme"] = bench::nameOf(*settings.scheme);
-    if (settings.sweep) json["sweep"] = bench::nameOf(*settings.sweep);
+    if (settings.scheme) json["scheme"] = nameOf(*settings.scheme);
+    if (settings.sweep) json["sweep"] = nameOf(*settings.sweep);
     if (settings.dt) json["dt"] = *settings.dt;
     return json;
 }

@@ -3,7 +3,7 @@
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/base/parallel.h"
-#include "vdbounce/build/random_numbers.h"
+#include "vdbounce/base/random_numbers.h"
 #include "vdbounce/field/option_checks.h"
 #include "vdbounce/field/surface_cells.h"
 #include "vdbounce/io/number_text.h"

@@ -16,6 +16,10 @@ enum class Scheme {
     CollideContact, ///< elastic collisions of the velocity before the step, then inelastic contact (slide 8)
 };
 
+/// What scenes and reports call them, in the enumeration's order.
+constexpr const char* kSchemeNames[] = {"once", "iterate", "collide-contact"};
+inline const char* nameOf(Scheme scheme) { return kSchemeNames[int(scheme)]; }
+
 /// A force that keeps particles away from surfaces: within `range` of touching, an acceleration outward that grows
 /// linearly from 0 at `range` to `strength` at the surface (slide 20). Coulomb friction as for contact.
 struct Repulsion {

@@ -13,6 +13,10 @@ enum class Sweep {
     Never,
 };
 
+/// What scenes and reports call them, in the enumeration's order.
+constexpr const char* kSweepNames[] = {"auto", "always", "never"};
+inline const char* nameOf(Sweep sweep) { return kSweepNames[int(sweep)]; }
+
 /// Whether a way is long enough to be searched, against walls that are told apart on `wallLength`.
 bool sweepIsDue(Sweep sweep, double way, double wallLength);
 

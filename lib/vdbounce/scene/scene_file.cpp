@@ -41,24 +41,22 @@ void readParticles(SceneTable table, const std::string& sceneFile, Scene& scene)
     table.finish();
 }
 
+template <class Enum, std::size_t N>
+Enum namedChoice(SceneTable& table, const char* key, const char* const (&names)[N], Enum otherwise)
+{
+    return Enum(table.choice(key, {names, names + N}, std::size_t(otherwise)));
+}
+
 void readContact(SceneTable table, Scene& scene)
 {
-    const Scheme schemes[] = {Scheme::CollideContact, Scheme::Once, Scheme::Iterate};
-    scene.scheme = schemes[table.choice("scheme", {"collide-contact", "once", "iterate"}, 0)];
+    scene.scheme = namedChoice(table, "scheme", kSchemeNames, scene.scheme);
     scene.maxBounces = table.integer("max_bounces", scene.maxBounces);
-    const Sweep sweeps[] = {Sweep::Auto, Sweep::Always, Sweep::Never};
-    scene.sweep = sweeps[table.choice("sweep", {"auto", "always", "never"}, 0)];
+    scene.sweep = namedChoice(table, "sweep", kSweepNames, scene.sweep);
     SceneTable repulsion = table.table("repulsion");
     scene.repulsionRange = repulsion.length("range", scene.repulsionRange);
     scene.repulsionStrength = repulsion.number("strength", scene.repulsionStrength);
     repulsion.finish();
     table.finish();
-}
-
-template <class Enum, std::size_t N>
-Enum namedChoice(SceneTable& table, const char* key, const char* const (&names)[N], Enum otherwise)
-{
-    return Enum(table.choice(key, {names, names + N}, std::size_t(otherwise)));
 }
 
 void readAccuracy(SceneTable table, Scene& scene)
