@@ -20,6 +20,7 @@ struct CollideArguments {
     std::string frames;
     bool explain = false;
     bool strict = false;
+    std::optional<Length> maxError;
     // The quick form.
     std::vector<std::string> colliders;
     std::string particles;
@@ -99,6 +100,13 @@ RunOptions runOptions(const CollideArguments& arguments)
     return options;
 }
 
+Json toJson(const FieldOptions& accuracy)
+{
+    return {{"lookup", nameOf(accuracy.lookup)},
+            {"normal", nameOf(accuracy.normal)},
+            {"storage", nameOf(accuracy.storage)}};
+}
+
 Json toJson(const RunReport& run)
 {
     Json colliders = Json::array();
@@ -108,23 +116,28 @@ Json toJson(const RunReport& run)
                              {"angular_impulse", tool::toJson(run.tally.angularImpulse[i])}});
     }
     const StepTally& tally = run.tally;
-    return {{"particles", run.particles},
-            {"frames", run.frames},
-            {"steps", run.steps},
-            {"seconds", run.seconds},
-            {"particle_steps_per_second", run.particleStepsPerSecond()},
-            {"free", tally.free},
-            {"near", tally.near},
-            {"contacts", tally.contacts},
-            {"swept", tally.swept},
-            {"unresolved", tally.unresolved},
-            {"rejected", run.rejected},
-            {"deleted", run.deleted},
-            {"max_penetration", tally.maxPenetration},
-            {"energy_initial", run.energyInitial},
-            {"energy_final", run.energyFinal},
-            {"colliders", colliders},
-            {"files", run.files}};
+    Json json = {{"particles", run.particles},
+                 {"frames", run.frames},
+                 {"steps", run.steps},
+                 {"seconds", run.seconds},
+                 {"particle_steps_per_second", run.particleStepsPerSecond()},
+                 {"free", tally.free},
+                 {"near", tally.near},
+                 {"contacts", tally.contacts},
+                 {"swept", tally.swept},
+                 {"unresolved", tally.unresolved},
+                 {"rejected", run.rejected},
+                 {"deleted", run.deleted},
+                 {"max_penetration", tally.maxPenetration},
+                 {"energy_initial", run.energyInitial},
+                 {"energy_final", run.energyFinal},
+                 {"colliders", colliders},
+                 {"files", run.files}};
+    if (run.accuracy) {
+        json["chosen"] = toJson(run.accuracy->chosen);
+        json["measured_error_vx"] = run.accuracy->measuredErrorVx;
+    }
+    return json;
 }
 
 std::string toText(const RunReport& run)
@@ -138,6 +151,12 @@ std::string toText(const RunReport& run)
             " unresolved; " + grouped(run.rejected) + " particles rejected, " + grouped(run.deleted) + " deleted\n";
     text += "deepest penetration " + rounded(tally.maxPenetration) + "; energy " + rounded(run.energyInitial) + " to " +
             rounded(run.energyFinal);
+    if (run.accuracy) {
+        const FieldOptions& chosen = run.accuracy->chosen;
+        text += std::string("\nchosen by max_error: ") + nameOf(chosen.lookup) + " lookup, " + nameOf(chosen.normal) +
+                " normals, values kept as " + nameOf(chosen.storage) + "; measured error " +
+                rounded(run.accuracy->measuredErrorVx) + " voxels";
+    }
     if (!run.files.empty())
         text += "\nwrote " + std::to_string(run.files.size()) +
                 (run.files.size() == 1 ? " file, " : " files, the last ") + run.files.back();
@@ -146,7 +165,8 @@ std::string toText(const RunReport& run)
 
 void runCollide(const CollideArguments& arguments, const CommonOptions& common)
 {
-    const Scene scene = sceneFor(arguments);
+    Scene scene = sceneFor(arguments);
+    if (arguments.maxError) scene.maxError = arguments.maxError;
     if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, {});
     if (arguments.explain) {
         const std::vector<std::string> lines = explainScene(scene);
@@ -180,6 +200,8 @@ void addCollide(CLI::App& app, const CommonOptions& common)
     verb->add_option("--frames", a.frames,
                      "Start from frame A (0: the particle file; else an earlier run's output) and go on to B")
         ->type_name("A-B");
+    addLength(*verb, "--max-error", a.maxError,
+              "Look level sets up in the cheapest way within this error, in place of [accuracy]");
     verb->add_flag("--strict", a.strict, "Exit 3 where particles are not finite or have a negative radius or mass");
     verb->add_option("--collider", a.colliders, "Level set to collide with, .vdb; may be repeated")
         ->expected(1)

@@ -103,10 +103,16 @@ void BlockValues::decodeNeighbourhood(std::size_t block, int offset, float (&val
     }
 }
 
-std::size_t BlockValues::memoryBytes() const
+std::size_t BlockValues::bytesPerBlock(Storage storage)
 {
-    return floats_.size() * sizeof(float) + halves_.size() * sizeof(std::uint16_t) + bytes_.size() +
-           ranges_.size() * sizeof(Range);
+    switch (storage) {
+    case Storage::Half: return kSize * sizeof(std::uint16_t);
+    case Storage::Fixed8: return kSize + sizeof(Range);
+    case Storage::Float: break;
+    }
+    return kSize * sizeof(float);
 }
+
+std::size_t BlockValues::memoryBytes() const { return blockCount_ * bytesPerBlock(storage_); }
 
 } // namespace vdbounce

@@ -45,6 +45,9 @@ public:
 
     float at(std::size_t block, int offset) const;
 
+    /// Of a block's values.
+    static std::size_t bytesPerBlock(Storage storage);
+
     Storage storage() const { return storage_; }
     std::size_t blockCount() const { return blockCount_; }
     std::size_t memoryBytes() const;

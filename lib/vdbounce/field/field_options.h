@@ -34,6 +34,11 @@ struct FieldOptions {
     Lookup lookup = Lookup::Trilinear;
     Normal normal = Normal::Central;
     Storage storage = Storage::Float;
+
+    bool operator==(const FieldOptions& other) const
+    {
+        return lookup == other.lookup && normal == other.normal && storage == other.storage;
+    }
 };
 
 } // namespace vdbounce

@@ -4,6 +4,7 @@
 #include "vdbounce/base/error.h"
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/io/particle_file.h"
+#include "vdbounce/scene/accuracy_plan.h"
 #include "vdbounce/scene/scene_colliders.h"
 
 #include <algorithm>
@@ -192,7 +193,14 @@ RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& p
     }
     requireInputsKept(scene, options.firstFrame, lastFrame);
     requireSequences(scene, options.firstFrame, lastFrame);
-    return Run(scene, options, progress).run();
+    const std::optional<AccuracyPlan> plan = planAccuracy(scene, options.firstFrame);
+    if (!plan) return Run(scene, options, progress).run();
+    Scene planned = scene;
+    planned.accuracy = plan->chosen;
+    RunReport report = Run(planned, options, progress).run();
+    const double error = measuredError(planned, options.firstFrame);
+    report.accuracy = RunAccuracy{plan->chosen, plan->voxel > 0.0 ? error / plan->voxel : 0.0};
+    return report;
 }
 
 } // namespace vdbounce

@@ -6,6 +6,7 @@
 #include "vdbounce/scene/scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ public:
     virtual void frameDone(int /*frame*/, int /*frames*/, std::uint64_t /*particleSteps*/) {}
 };
 
+/// What the scene's maxError led to.
+struct RunAccuracy {
+    FieldOptions chosen;
+    double measuredErrorVx = 0.0; ///< on another sample than the one that it was chosen by; of the finest level set
+};
+
 struct RunReport {
     std::uint64_t particles = 0;
     int frames = 0; ///< advanced
@@ -36,6 +43,7 @@ struct RunReport {
     double energyFinal = 0.0;
     std::vector<std::string> colliderNames; ///< in the order of tally.impulse
     std::vector<std::string> files;         ///< written
+    std::optional<RunAccuracy> accuracy;    ///< where the scene has a maxError
     std::uint64_t particleSteps = 0;        ///< taken; fewer than particles times steps where some were deleted
 
     double particleStepsPerSecond() const { return seconds > 0.0 ? double(particleSteps) / seconds : 0.0; }
@@ -45,8 +53,9 @@ struct RunReport {
 /// or not at all, and nothing is written before everything that the scene names has been read, but for the later files
 /// of sequences, which are known to exist then.
 ///
-/// Throws InputError for files that cannot be used and for radii that a collider's narrow band cannot answer (naming
-/// the band that would do), UsageError for options out of range, Interrupted.
+/// Throws ToleranceError where nothing reaches the scene's maxError, InputError for files that cannot be used and for
+/// radii that a collider's narrow band cannot answer (naming the band that would do), UsageError for options out of
+/// range, Interrupted.
 RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& progress);
 
 /// What runScene would do, in words, one line each: what is read, what a step will look at and what it leaves out.

@@ -72,6 +72,9 @@ std::optional<SceneFault> findFault(const Scene& scene)
                     "contact.repulsion.range", scene.repulsionRange.value, "give 0 or more");
     checker.require(scene.repulsionStrength >= 0.0 && std::isfinite(scene.repulsionStrength),
                     "contact.repulsion.strength", scene.repulsionStrength, "give 0 or more");
+    const double maxError = scene.maxError.value_or(Length{1.0}).value;
+    checker.require(maxError > 0.0 && std::isfinite(maxError), "accuracy.max_error", maxError,
+                    "give a positive length, 0.05vx is a twentieth of a voxel");
     checker.require(scene.every >= 1, "output.every", scene.every, "give 1 or more");
     for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
         checkCollider(scene.colliders[i], "collider[" + std::to_string(i) + "]", checker);

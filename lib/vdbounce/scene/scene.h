@@ -33,7 +33,9 @@ struct Scene {
     bool interact = false;          ///< particles collide with each other
     InteractOptions particles;      ///< and how
 
-    FieldOptions accuracy; ///< how level sets are looked up
+    FieldOptions accuracy;          ///< how level sets are looked up
+    std::optional<Length> maxError; ///< in place of that the cheapest choice within it, > 0; see planAccuracy(). In
+                                    ///< voxels: of the finest level set
 
     std::vector<ColliderSpec> colliders;
 

@@ -65,7 +65,12 @@ void readAccuracy(SceneTable table, Scene& scene)
     accuracy.lookup = namedChoice(table, "lookup", kLookupNames, accuracy.lookup);
     accuracy.normal = namedChoice(table, "normal", kNormalNames, accuracy.normal);
     accuracy.storage = namedChoice(table, "storage", kStorageNames, accuracy.storage);
-    table.refuseForNow("max_error", "remove it");
+    if (table.has("max_error")) {
+        for (const char* key : {"lookup", "normal", "storage"}) {
+            if (table.has(key)) table.fail(key, "is chosen by max_error", "remove one of the two");
+        }
+        scene.maxError = table.length("max_error", Length());
+    }
     table.finish();
 }
 

@@ -190,11 +190,6 @@ void SceneTable::require(const char* key) const
     if (!has(key)) fail(key, "is missing", std::string("give ") + key);
 }
 
-void SceneTable::refuseForNow(const char* key, const std::string& remedy)
-{
-    if (find(key) != nullptr) fail(key, "is not supported by this version", remedy);
-}
-
 void SceneTable::finish() const
 {
     for (const auto& [key, node] : table_) {

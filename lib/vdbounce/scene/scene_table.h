@@ -43,9 +43,6 @@ public:
     /// Refuses a table that lacks this key.
     void require(const char* key) const;
 
-    /// Refuses a key that a later version will know.
-    void refuseForNow(const char* key, const std::string& remedy);
-
     /// Notes a key that is read by other means.
     void markKnown(const char* key) { known_.emplace_back(key); }
 

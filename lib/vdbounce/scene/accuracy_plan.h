@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "vdbounce/scene/scene.h"
+
+#include <optional>
+
+/// @file
+/// `max_error`: the cheapest way to look level sets up that is exact enough for a scene.
+
+namespace vdbounce {
+
+struct AccuracyPlan {
+    FieldOptions chosen;
+    double error = 0.0; ///< what it is off by: the largest of all level sets, world units
+    double voxel = 0.0; ///< the smallest of all level sets, world units; 0 where the scene has none
+};
+
+/// The fastest choice whose error stays within the scene's maxError in each of its level sets (of sequences: in that of
+/// `frame`), and whose fields fit into a quarter of the machine's memory where one does. Errors are those of
+/// LookupErrors, and count between the level set and its surface only: the motion in between two frames of a sequence,
+/// and the steps, have their own. Nothing where the scene has no maxError.
+///
+/// The order of choices by cost is that of bench trade rather than timed here, so that a scene has the same results
+/// wherever it runs.
+///
+/// Throws ToleranceError where no choice is exact enough, naming what can be reached and the voxel's size that would
+/// do. Cost: some tenths of a second a file; none for files that are in the cache.
+std::optional<AccuracyPlan> planAccuracy(const Scene& scene, int frame);
+
+/// What the scene's own choice is off by, on another sample than the one that it was planned on: the largest of all
+/// level sets, world units.
+double measuredError(const Scene& scene, int frame);
+
+} // namespace vdbounce
