@@ -3,7 +3,7 @@
 #include "vdbounce/contact/clearance_batch.h"
 #include "vdbounce/contact/free_flight.h"
 #include "vdbounce/contact/particle_pass.h"
-#include "vdbounce/contact/particle_step.h"
+#include "vdbounce/contact/step_needs.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +26,7 @@ struct ParticlePass::Apart {
     std::vector<double> reach;
     FlightPlan plan;
     bool batches; // lookups can be made many at once
+    StepFunction takeStep;
 
     const PlacedColliders& placedIn(int step) const { return placed[placed.size() == 1 ? 0 : std::size_t(step)]; }
 };
@@ -127,7 +128,7 @@ private:
     void stepOne(std::size_t i, int s)
     {
         MovingParticle particle = pass_.load(i);
-        step(particle, apart_.placedIn(s), pass_.options_.step, tally_);
+        apart_.takeStep(particle, apart_.placedIn(s), pass_.options_.step, tally_);
         pass_.store(i, particle);
     }
 
@@ -155,6 +156,9 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
     apart.plan.steps = steps;
     // Repulsion acts before anything touches.
     apart.batches = ClearanceBatch::answers(*colliders_) && !(options_.step.repulsion.range > 0.0);
+
+    const StepNeeds needs = needsOf(*colliders_, options_.step, options_.hits);
+    apart.takeStep = stepOfVariant(options_.wholeStep ? kWholeStep : stepVariantFor(needs));
 
     ProgressCounter counter(progress, particles_.size());
     return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {

@@ -33,6 +33,7 @@ struct PassOptions {
     ParticleDefaults defaults;
     std::uint64_t firstStep = 0; ///< steps that lie before; times of motions are the number of the step times dt
     bool hits = false;           ///< keep Particles::hits
+    bool wholeStep = false;      ///< look also at what the scene cannot need: the same results, for comparison
     bool interact = false;       ///< particles collide with each other
     InteractOptions particles;   ///< how, if so
 };

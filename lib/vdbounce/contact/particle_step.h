@@ -2,13 +2,14 @@
 #pragma once
 
 #include "vdbounce/contact/step.h"
+#include "vdbounce/contact/step_needs.h"
 #include "vdbounce/contact/sweep.h"
 
 #include <vector>
 
 /// @file
-/// One particle's step while it is worked on: what the lecture's schemes are made of. For schemes.cpp, recovery.cpp and
-/// step.cpp only.
+/// One particle's step while it is worked on: what the lecture's schemes are made of. For step.cpp and the
+/// headers that it includes only.
 
 namespace vdbounce {
 
@@ -23,12 +24,11 @@ struct Touch {
     double when = 1.0;  // share of the step
 };
 
-/// Whether a way, with what colliders move meanwhile, is to be searched, when the clearances at both of its ends add up
-/// to `clear`. `wallLength` is that of the colliders.
-bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength);
-
-class ParticleStep {
+/// `kVariant` tells what the step may leave out, see kStepVariants.
+template <int kVariant> class ParticleStep {
 public:
+    static constexpr StepNeeds kNeeds = kStepVariants[kVariant];
+
     ParticleStep(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options,
                  StepTally& tally);
 
@@ -52,6 +52,13 @@ public:
 
     /// `probe` of the candidate; true when it penetrates.
     bool penetrates();
+
+    Probe probeAt(const Vec3d& position) const;
+    bool normalAt(std::size_t collider, const Vec3d& position, Vec3d& normal) const;
+
+    bool moves(std::size_t collider) const { return kNeeds.motion && colliders.placement(collider).moves; }
+    /// It is moved by particles.
+    bool isFree(std::size_t collider) const { return kNeeds.motion && colliders[collider].body; }
 
     Vec3d averageVelocity() const { return (candidate - start) / options.dt; }
 
@@ -116,20 +123,20 @@ private:
 };
 
 /// The lecture's schemes, for a particle that began outside and touches: they leave candidate and endVelocity resolved.
-void collideContact(ParticleStep& step, Touch touch);
-void iterate(ParticleStep& step, Touch touch);
-void once(ParticleStep& step, const Touch& touch);
+template <int kVariant> void collideContact(ParticleStep<kVariant>& step, Touch touch);
+template <int kVariant> void iterate(ParticleStep<kVariant>& step, Touch touch);
+template <int kVariant> void once(ParticleStep<kVariant>& step, const Touch& touch);
 
 /// Inelastic contact over the whole step, of collideContact(), with all walls that are touched at once: what still
 /// touches afterwards could not be resolved.
-Touch rest(ParticleStep& step, Touch touch);
+template <int kVariant> Touch rest(ParticleStep<kVariant>& step, Touch touch);
 
 /// For a particle that began inside: moves it out by a share of its depth, inelastically.
-void recover(ParticleStep& step);
+template <int kVariant> void recover(ParticleStep<kVariant>& step);
 /// The same by an impulse in proportion to the depth, with friction (slide 3).
-void repel(ParticleStep& step);
+template <int kVariant> void repel(ParticleStep<kVariant>& step);
 
 /// The force within a range of the surface, on the velocity at the start of the step.
-void applyRepulsion(ParticleStep& step);
+template <int kVariant> void applyRepulsion(ParticleStep<kVariant>& step);
 
 } // namespace vdbounce

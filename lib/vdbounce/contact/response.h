@@ -20,6 +20,7 @@ inline Vec3d respond(const Vec3d& w, const Vec3d& normal, double restitution, do
     const double approach = w.dot(normal);
     if (!(approach < 0.0)) return w;
     const Vec3d tangential = w - approach * normal;
+    if (friction == 0.0) return tangential - restitution * approach * normal;
     const double slip = tangential.norm();
     const double grip = friction * (1.0 + restitution) * -approach;
     const Vec3d kept = grip >= slip ? Vec3d(Vec3d::Zero()) : Vec3d((1.0 - grip / slip) * tangential);

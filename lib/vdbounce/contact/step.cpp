@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vdbounce/contact/step.h"
 
-#include "vdbounce/contact/particle_step.h"
+#include "vdbounce/contact/particle_step-inl.h"
+#include "vdbounce/contact/recovery-inl.h"
+#include "vdbounce/contact/schemes-inl.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace vdbounce {
 namespace {
@@ -21,7 +24,7 @@ void ride(MovingParticle& particle, const PlacedColliders& colliders, const Step
     tally.angularImpulse[collider] += particle.position.cross(impulse);
 }
 
-void stick(ParticleStep& step, const Touch& touch)
+template <int kVariant> void stick(ParticleStep<kVariant>& step, const Touch& touch)
 {
     const Vec3d before = step.endVelocity;
     step.particle.stuckTo = static_cast<int>(touch.collider);
@@ -37,7 +40,7 @@ void stick(ParticleStep& step, const Touch& touch)
 }
 
 // Whether the collider keeps or removes what touches it.
-bool takes(ParticleStep& step, const Touch& touch)
+template <int kVariant> bool takes(ParticleStep<kVariant>& step, const Touch& touch)
 {
     const OnHit onHit = step.colliders[touch.collider].onHit;
     if (onHit == OnHit::Delete) step.particle.deleted = true;
@@ -45,11 +48,11 @@ bool takes(ParticleStep& step, const Touch& touch)
     return onHit != OnHit::Bounce;
 }
 
-void answer(ParticleStep& step, const Touch& touch)
+template <int kVariant> void answer(ParticleStep<kVariant>& step, const Touch& touch)
 {
     ++step.tally.contacts;
     step.record(touch);
-    if (takes(step, touch)) return;
+    if (step.kNeeds.taking && takes(step, touch)) return;
     switch (step.options.scheme) {
     case Scheme::Once: once(step, touch); break;
     case Scheme::Iterate: iterate(step, touch); break;
@@ -58,7 +61,7 @@ void answer(ParticleStep& step, const Touch& touch)
 }
 
 // For a particle that began inside.
-void answerInside(ParticleStep& step)
+template <int kVariant> void answerInside(ParticleStep<kVariant>& step)
 {
     if (step.penetrates()) {
         Touch touch;
@@ -66,7 +69,7 @@ void answerInside(ParticleStep& step)
         touch.collider = step.probe.collider;
         touch.centre = step.candidate;
         step.record(touch);
-        if (takes(step, touch)) {
+        if (step.kNeeds.taking && takes(step, touch)) {
             ++step.tally.contacts;
             return;
         }
@@ -78,10 +81,10 @@ void answerInside(ParticleStep& step)
     }
 }
 
-void answerNear(ParticleStep& step)
+template <int kVariant> void answerNear(ParticleStep<kVariant>& step)
 {
     MovingParticle& particle = step.particle;
-    if (step.options.repulsion.range > 0.0) applyRepulsion(step);
+    if (step.kNeeds.repulsion && step.options.repulsion.range > 0.0) applyRepulsion(step);
     if (particle.inside) {
         answerInside(step);
         particle.touching = true;
@@ -97,6 +100,32 @@ void answerNear(ParticleStep& step)
         if (!step.unresolved) ++step.tally.unresolved;
         step.tally.maxPenetration = std::max(step.tally.maxPenetration, -step.probe.gap);
     }
+}
+
+template <int kVariant>
+void stepAs(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
+{
+    if (particle.deleted) return;
+    if (particle.stuckTo != MovingParticle::kNotStuck) {
+        ++tally.free;
+        ride(particle, colliders, options, tally);
+        return;
+    }
+    const FlightPlan plan = flightPlan(options);
+    if (flyFreely(plan, colliders.reach(), particle.position, particle.velocity, particle.clearance)) {
+        ++tally.free;
+        particle.touching = false;
+        return;
+    }
+    ParticleStep<kVariant> step(particle, colliders, options, tally);
+    if (!std::isfinite((step.candidate - step.start).norm())) {
+        // Faster than numbers go: nothing can be said about where it would be.
+        ++tally.near;
+        ++tally.unresolved;
+        return;
+    }
+    ++tally.near;
+    answerNear(step);
 }
 
 } // namespace
@@ -117,29 +146,32 @@ void settle(MovingParticle& particle, const PlacedColliders& colliders)
     particle.inside = probe.gap < 0.0;
 }
 
+StepNeeds needsOf(const ColliderSet& colliders, const StepOptions& options, bool hits)
+{
+    StepNeeds needs;
+    needs.motion = !colliders.still();
+    needs.several = colliders.size() != 1;
+    needs.friction = false;
+    needs.taking = false;
+    for (std::size_t i = 0; i < colliders.size(); ++i) {
+        needs.friction = needs.friction || colliders[i].friction != 0.0;
+        needs.taking = needs.taking || colliders[i].onHit != OnHit::Bounce;
+    }
+    needs.repulsion = options.repulsion.range > 0.0;
+    needs.hits = hits;
+    return needs;
+}
+
+StepFunction stepOfVariant(int variant)
+{
+    static constexpr StepFunction kVariants[] = {stepAs<0>, stepAs<1>, stepAs<2>, stepAs<3>};
+    static_assert(std::size(kVariants) == std::size(kStepVariants));
+    return kVariants[variant];
+}
+
 void step(MovingParticle& particle, const PlacedColliders& colliders, const StepOptions& options, StepTally& tally)
 {
-    if (particle.deleted) return;
-    if (particle.stuckTo != MovingParticle::kNotStuck) {
-        ++tally.free;
-        ride(particle, colliders, options, tally);
-        return;
-    }
-    const FlightPlan plan = flightPlan(options);
-    if (flyFreely(plan, colliders.reach(), particle.position, particle.velocity, particle.clearance)) {
-        ++tally.free;
-        particle.touching = false;
-        return;
-    }
-    ParticleStep step(particle, colliders, options, tally);
-    if (!std::isfinite((step.candidate - step.start).norm())) {
-        // Faster than numbers go: nothing can be said about where it would be.
-        ++tally.near;
-        ++tally.unresolved;
-        return;
-    }
-    ++tally.near;
-    answerNear(step);
+    stepAs<kWholeStep>(particle, colliders, options, tally);
 }
 
 void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved, const Vec3d& velocity,
@@ -158,7 +190,7 @@ void moveAgain(MovingParticle& particle, const Vec3d& start, const Vec3d& moved,
     from.position = start;
     from.clearance = 0.0; // was that of another place
     StepTally trial(colliders.size());
-    ParticleStep step(from, colliders, options, trial);
+    ParticleStep<kWholeStep> step(from, colliders, options, trial);
     step.candidate = moved;
     step.endVelocity = velocity;
     Touch touch = step.look();

@@ -20,6 +20,13 @@ inline const char* nameOf(Sweep sweep) { return kSweepNames[int(sweep)]; }
 /// Whether a way is long enough to be searched, against walls that are told apart on `wallLength`.
 bool sweepIsDue(Sweep sweep, double way, double wallLength);
 
+/// The same of one whose way, with what colliders move meanwhile, may be free: `clear` is what the clearances at both
+/// of its ends add up to.
+inline bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength)
+{
+    return way > clear && sweepIsDue(sweep, way, wallLength);
+}
+
 /// Where along a straight path a particle first touches a collider. World space.
 struct PathHit {
     bool hit = false;

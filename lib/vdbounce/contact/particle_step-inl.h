@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "vdbounce/contact/particle_step.h"
+#pragma once
 
+#include "vdbounce/contact/particle_step.h"
 #include "vdbounce/contact/response.h"
 
 #include <Eigen/Cholesky>
@@ -21,36 +22,46 @@ constexpr double kSmallestPush = 1e-6;
 
 } // namespace
 
-bool sweepIsDue(Sweep sweep, double way, double clear, double wallLength)
-{
-    return way > clear && sweepIsDue(sweep, way, wallLength);
-}
-
-ParticleStep::ParticleStep(MovingParticle& p, const PlacedColliders& c, const StepOptions& o, StepTally& t)
+template <int kVariant>
+ParticleStep<kVariant>::ParticleStep(MovingParticle& p, const PlacedColliders& c, const StepOptions& o, StepTally& t)
     : particle(p), colliders(c), options(o), tally(t), start(p.position), velocity(p.velocity)
 {
     integrate();
 }
 
-void ParticleStep::integrate()
+template <int kVariant> void ParticleStep<kVariant>::integrate()
 {
     endVelocity = velocity + options.dt * options.gravity;
     candidate = start + options.dt * 0.5 * (velocity + endVelocity);
 }
 
-void ParticleStep::accept()
+template <int kVariant> void ParticleStep<kVariant>::accept()
 {
     particle.position = candidate;
     particle.velocity = endVelocity;
 }
 
-bool ParticleStep::penetrates()
+template <int kVariant> bool ParticleStep<kVariant>::penetrates()
 {
-    probe = colliders.probe(candidate, particle.radius);
+    probe = probeAt(candidate);
     return probe.gap < 0.0;
 }
 
-Touch ParticleStep::look()
+template <int kVariant> Probe ParticleStep<kVariant>::probeAt(const Vec3d& position) const
+{
+    if constexpr (kNeeds.motion || kNeeds.several) return colliders.probe(position, particle.radius);
+    const Nearness near = nearnessOf(colliders[0].shape, position, particle.radius, 0.0);
+    return {near.phi - particle.radius, near.clearance, 0};
+}
+
+template <int kVariant>
+bool ParticleStep<kVariant>::normalAt(std::size_t collider, const Vec3d& position, Vec3d& normal) const
+{
+    if constexpr (kNeeds.motion) return colliders.normalAt(collider, position, normal);
+    return outwardNormal(colliders[collider].shape, position, 0.0, normal);
+}
+
+template <int kVariant> Touch ParticleStep<kVariant>::look()
 {
     penetrates();
     Touch touch;
@@ -72,67 +83,71 @@ Touch ParticleStep::look()
     touch.touching = probe.gap < 0.0;
     touch.collider = probe.collider;
     touch.centre = candidate;
-    if (touch.touching) touch.hasNormal = colliders.normalAt(probe.collider, candidate, touch.normal);
+    if (touch.touching) touch.hasNormal = normalAt(probe.collider, candidate, touch.normal);
     return touch;
 }
 
-bool ParticleStep::mayHaveTouchedOnTheWay() const
+template <int kVariant> bool ParticleStep<kVariant>::mayHaveTouchedOnTheWay() const
 {
-    const double way = (candidate - start).norm() + colliders.reach();
+    const double way = (candidate - start).norm() + (kNeeds.motion ? colliders.reach() : 0.0);
     return sweepIsDue(options.sweep, way, particle.clearance + probe.clearance, colliders.wallLength());
 }
 
-double ParticleStep::shortLength() const
+template <int kVariant> double ParticleStep<kVariant>::shortLength() const
 {
     const double length = colliders.wallLength();
     const bool known = length > 0.0 && length < std::numeric_limits<double>::infinity();
     return known ? length : 0.25 * (candidate - start).norm();
 }
 
-double ParticleStep::pushOut(double depth) const
+template <int kVariant> double ParticleStep<kVariant>::pushOut(double depth) const
 {
     return std::max((1.0 + kPushMargin) * depth, kSmallestPush * shortLength());
 }
 
-Vec3d ParticleStep::contactPoint(const Touch& touch) const
+template <int kVariant> Vec3d ParticleStep<kVariant>::contactPoint(const Touch& touch) const
 {
     return touch.hasNormal ? Vec3d(touch.centre - particle.radius * touch.normal) : touch.centre;
 }
 
-Vec3d ParticleStep::surfaceVelocity(std::size_t collider, const Vec3d& at) const
+template <int kVariant> Vec3d ParticleStep<kVariant>::surfaceVelocity(std::size_t collider, const Vec3d& at) const
 {
+    if constexpr (!kNeeds.motion) return Vec3d::Zero();
     Vec3d surface = colliders.surfaceVelocity(collider, at);
     if (bodyChanges_.empty()) return surface;
     const BodyChange& change = bodyChanges_[collider];
     return surface + change.linear + change.angular.cross(at - colliders.placement(collider).body.centre);
 }
 
-Vec3d ParticleStep::collided(const Vec3d& before, const Touch& touch, double restitution)
+template <int kVariant>
+Vec3d ParticleStep<kVariant>::collided(const Vec3d& before, const Touch& touch, double restitution)
 {
     const Collider& collider = colliders[touch.collider];
     const Vec3d at = contactPoint(touch);
+    const double friction = kNeeds.friction ? collider.friction : 0.0;
     // The surface's velocity is that of the end of the step, so it is asked for where the point that was hit is then.
-    const Vec3d atEnd = colliders.placement(touch.collider).atEnd(at, touch.when);
+    const Vec3d atEnd = moves(touch.collider) ? colliders.placement(touch.collider).atEnd(at, touch.when) : at;
     Vec3d after;
-    if (collider.body) {
+    if (isFree(touch.collider)) {
         const Mat3d response =
             Mat3d::Identity() / particle.mass + colliders.placement(touch.collider).body.response(at);
         const Vec3d w = before - surfaceVelocity(touch.collider, atEnd);
-        after = before + impulseBetween(w, touch.normal, restitution, collider.friction, response) / particle.mass;
-    } else if (colliders.placement(touch.collider).moves) {
+        after = before + impulseBetween(w, touch.normal, restitution, friction, response) / particle.mass;
+    } else if (moves(touch.collider)) {
         const Vec3d surface = surfaceVelocity(touch.collider, atEnd);
-        after = respond(before - surface, touch.normal, restitution, collider.friction) + surface;
+        after = respond(before - surface, touch.normal, restitution, friction) + surface;
     } else {
-        after = respond(before, touch.normal, restitution, collider.friction);
+        after = respond(before, touch.normal, restitution, friction);
     }
     react(touch.collider, at, after - before);
     return after;
 }
 
-Vec3d ParticleStep::brought(const Vec3d& before, const Vec3d& target, std::size_t collider, const Vec3d& at)
+template <int kVariant>
+Vec3d ParticleStep<kVariant>::brought(const Vec3d& before, const Vec3d& target, std::size_t collider, const Vec3d& at)
 {
     Vec3d change = target - before;
-    if (colliders[collider].body) {
+    if (isFree(collider)) {
         const Mat3d response = Mat3d::Identity() / particle.mass + colliders.placement(collider).body.response(at);
         change = response.ldlt().solve(change) / particle.mass;
     }
@@ -140,35 +155,36 @@ Vec3d ParticleStep::brought(const Vec3d& before, const Vec3d& target, std::size_
     return before + change;
 }
 
-Vec3d ParticleStep::drift(std::size_t collider) const
+template <int kVariant> Vec3d ParticleStep<kVariant>::drift(std::size_t collider) const
 {
-    if (!colliders.placement(collider).moves) return Vec3d::Zero();
+    if (!moves(collider)) return Vec3d::Zero();
     return (colliders.carried(collider, start) - start) / options.dt;
 }
 
-Vec3d ParticleStep::slid(const Vec3d& average, const Touch& touch, double restitution) const
+template <int kVariant>
+Vec3d ParticleStep<kVariant>::slid(const Vec3d& average, const Touch& touch, double restitution) const
 {
-    const double friction = colliders[touch.collider].friction;
-    if (!colliders.placement(touch.collider).moves) return respond(average, touch.normal, restitution, friction);
+    const double friction = kNeeds.friction ? colliders[touch.collider].friction : 0.0;
+    if (!moves(touch.collider)) return respond(average, touch.normal, restitution, friction);
     const Vec3d surface = drift(touch.collider);
     return respond(average - surface, touch.normal, restitution, friction) + surface;
 }
 
-void ParticleStep::react(std::size_t collider, const Vec3d& at, const Vec3d& change)
+template <int kVariant> void ParticleStep<kVariant>::react(std::size_t collider, const Vec3d& at, const Vec3d& change)
 {
     const Vec3d impulse = -particle.mass * change;
     tally.impulse[collider] += impulse;
     tally.angularImpulse[collider] += at.cross(impulse);
-    if (!colliders[collider].body) return;
+    if (!isFree(collider)) return;
     if (bodyChanges_.empty()) bodyChanges_.resize(colliders.size());
     const BodyShare& body = colliders.placement(collider).body;
     bodyChanges_[collider].linear += body.inverseMass * impulse;
     bodyChanges_[collider].angular += body.inverseInertia * (at - body.centre).cross(impulse);
 }
 
-bool ParticleStep::paysForItsHeight(std::size_t collider)
+template <int kVariant> bool ParticleStep<kVariant>::paysForItsHeight(std::size_t collider)
 {
-    if (!colliders.set().still()) return true;
+    if (kNeeds.motion && !colliders.set().still()) return true;
     const double speed2 = endVelocity.squaredNorm();
     const double allowed2 = particle.velocity.squaredNorm() + 2.0 * options.gravity.dot(candidate - start);
     if (speed2 <= allowed2) return true;
@@ -179,13 +195,13 @@ bool ParticleStep::paysForItsHeight(std::size_t collider)
     return true;
 }
 
-void ParticleStep::stop(std::size_t collider)
+template <int kVariant> void ParticleStep<kVariant>::stop(std::size_t collider)
 {
-    candidate = colliders.carried(collider, start);
+    candidate = moves(collider) ? colliders.carried(collider, start) : start;
     endVelocity = brought(endVelocity, surfaceVelocity(collider, candidate), collider, candidate);
 }
 
-void ParticleStep::hold(std::size_t collider)
+template <int kVariant> void ParticleStep<kVariant>::hold(std::size_t collider)
 {
     stop(collider);
     penetrates();
@@ -193,9 +209,9 @@ void ParticleStep::hold(std::size_t collider)
     unresolved = true;
 }
 
-void ParticleStep::record(const Touch& touch)
+template <int kVariant> void ParticleStep<kVariant>::record(const Touch& touch)
 {
-    if (particle.hits == nullptr || particle.touching) return;
+    if (!kNeeds.hits || particle.hits == nullptr || particle.touching) return;
     HitRecord& hit = *particle.hits;
     hit.time = colliders.begin() + touch.when * options.dt;
     hit.position = contactPoint(touch);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 #include "vdbounce/contact/particle_step.h"
 #include "vdbounce/contact/response.h"
 
@@ -22,7 +24,8 @@ constexpr double kShallowVx = 0.05;
 constexpr double kForceReach = 0.1;
 
 // The way out of what `centre` penetrates, with the distance where that is known to be more than the gap.
-bool leads(const ParticleStep& step, std::size_t collider, const Vec3d& centre, Touch& touch)
+template <int kVariant>
+bool leads(const ParticleStep<kVariant>& step, std::size_t collider, const Vec3d& centre, Touch& touch)
 {
     touch.touching = true;
     touch.collider = collider;
@@ -32,15 +35,15 @@ bool leads(const ParticleStep& step, std::size_t collider, const Vec3d& centre, 
 }
 
 // How far one step moves a particle out of a depth.
-double outOf(const ParticleStep& step, double depth)
+template <int kVariant> double outOf(const ParticleStep<kVariant>& step, double depth)
 {
     return depth < kShallowVx * step.shortLength() ? step.pushOut(depth) : kRecovery * depth;
 }
 
 // An inelastic answer of the velocity from the start of the step, with the normal there.
-void turnBack(ParticleStep& step)
+template <int kVariant> void turnBack(ParticleStep<kVariant>& step)
 {
-    const Probe here = step.colliders.probe(step.start, step.particle.radius);
+    const Probe here = step.probeAt(step.start);
     Touch touch;
     if (!(here.gap < 0.0) || !leads(step, here.collider, step.start, touch)) return;
     step.velocity = step.collided(step.velocity, touch, 0.0);
@@ -50,7 +53,7 @@ void turnBack(ParticleStep& step)
 } // namespace
 
 // What still moves in is answered first, so that it cannot pass through.
-void recover(ParticleStep& step)
+template <int kVariant> void recover(ParticleStep<kVariant>& step)
 {
     turnBack(step);
     if (!step.penetrates()) return;
@@ -67,7 +70,7 @@ void recover(ParticleStep& step)
     step.penetrates();
 }
 
-void repel(ParticleStep& step)
+template <int kVariant> void repel(ParticleStep<kVariant>& step)
 {
     if (!step.penetrates()) return;
     ++step.tally.contacts;
@@ -89,11 +92,11 @@ void repel(ParticleStep& step)
     step.penetrates();
 }
 
-void applyRepulsion(ParticleStep& step)
+template <int kVariant> void applyRepulsion(ParticleStep<kVariant>& step)
 {
     const Repulsion& repulsion = step.options.repulsion;
     const double dt = step.options.dt;
-    const Probe here = step.colliders.probe(step.start, step.particle.radius);
+    const Probe here = step.probeAt(step.start);
     const double overlap = repulsion.range - here.gap;
     if (!(overlap > 0.0) || !std::isfinite(here.gap)) return;
     Touch touch;

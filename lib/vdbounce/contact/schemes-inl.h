@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#pragma once
+
 #include "vdbounce/contact/particle_step.h"
 #include "vdbounce/contact/walls.h"
 
@@ -18,7 +20,7 @@ constexpr int kMaxContacts = 16;
 constexpr double kRepeatedBounce = 0.5;
 
 // Elastic collisions of the velocity from the start of the step.
-Touch bounce(ParticleStep& step, Touch touch)
+template <int kVariant> Touch bounce(ParticleStep<kVariant>& step, Touch touch)
 {
     for (int i = 0; i < step.options.maxBounces && touch.touching && touch.hasNormal; ++i) {
         const Vec3d before = step.velocity;
@@ -31,7 +33,8 @@ Touch bounce(ParticleStep& step, Touch touch)
 }
 
 // The average velocity against all walls at once, leaving the last of them by at least `leave`.
-void slideAlong(ParticleStep& step, Walls& walls, int last, double leave, Vec3d& average)
+template <int kVariant>
+void slideAlong(ParticleStep<kVariant>& step, Walls& walls, int last, double leave, Vec3d& average)
 {
     for (int i = 0; i < walls.count(); ++i) {
         walls[i].velocity = step.drift(walls[i].collider);
@@ -45,7 +48,7 @@ void slideAlong(ParticleStep& step, Walls& walls, int last, double leave, Vec3d&
 }
 
 // Against colliders that give way, and do so differently in each direction.
-void stopOneAfterTheOther(ParticleStep& step, const Walls& walls, Touch touch)
+template <int kVariant> void stopOneAfterTheOther(ParticleStep<kVariant>& step, const Walls& walls, Touch touch)
 {
     for (int i = 0; i < kMaxContacts * walls.count(); ++i) {
         const Walls::Wall& wall = walls[i % walls.count()];
@@ -56,10 +59,10 @@ void stopOneAfterTheOther(ParticleStep& step, const Walls& walls, Touch touch)
 }
 
 // The same of the end velocity, whose changes the colliders take.
-void stopAgainst(ParticleStep& step, Walls& walls, const Touch& touch)
+template <int kVariant> void stopAgainst(ParticleStep<kVariant>& step, Walls& walls, const Touch& touch)
 {
     const Vec3d at = step.contactPoint(touch);
-    if (step.colliders.set().anyFree()) {
+    if (step.kNeeds.motion && step.colliders.set().anyFree()) {
         stopOneAfterTheOther(step, walls, touch);
         return;
     }
@@ -77,15 +80,15 @@ void stopAgainst(ParticleStep& step, Walls& walls, const Touch& touch)
 
 // These schemes go on from the average velocity as if the particle had it at the end: the collider answers for the
 // difference too, or momentum would be lost. One that gives way cannot: it is answered with the end velocity.
-void answerAverage(ParticleStep& step, const Touch& touch)
+template <int kVariant> void answerAverage(ParticleStep<kVariant>& step, const Touch& touch)
 {
-    if (step.colliders[touch.collider].body) return;
+    if (step.isFree(touch.collider)) return;
     step.react(touch.collider, step.contactPoint(touch), step.averageVelocity() - step.endVelocity);
     step.endVelocity = step.averageVelocity();
 }
 
 // Undoes responses: the collider gives back what it took.
-void goBack(ParticleStep& step, const Touch& touch, const Vec3d& average)
+template <int kVariant> void goBack(ParticleStep<kVariant>& step, const Touch& touch, const Vec3d& average)
 {
     step.react(touch.collider, step.contactPoint(touch), average - step.endVelocity);
     step.endVelocity = average;
@@ -94,7 +97,8 @@ void goBack(ParticleStep& step, const Touch& touch, const Vec3d& average)
 
 // Responses of the average velocity until it is outside, the first with `share` of the restitution. What moves it out
 // of a curved surface is no velocity: nobody gave it.
-Touch bounceRepeatedly(ParticleStep& step, Touch touch, double share, std::size_t& last)
+template <int kVariant>
+Touch bounceRepeatedly(ParticleStep<kVariant>& step, Touch touch, double share, std::size_t& last)
 {
     Vec3d push = Vec3d::Zero();
     for (int i = 0; i < kMaxContacts && touch.touching && touch.hasNormal; ++i) {
@@ -111,7 +115,7 @@ Touch bounceRepeatedly(ParticleStep& step, Touch touch, double share, std::size_
 
 } // namespace
 
-Touch rest(ParticleStep& step, Touch touch)
+template <int kVariant> Touch rest(ParticleStep<kVariant>& step, Touch touch)
 {
     Vec3d average = step.averageVelocity();
     Walls walls;
@@ -135,7 +139,7 @@ Touch rest(ParticleStep& step, Touch touch)
     return touch;
 }
 
-void collideContact(ParticleStep& step, Touch touch)
+template <int kVariant> void collideContact(ParticleStep<kVariant>& step, Touch touch)
 {
     touch = bounce(step, touch);
     const std::size_t last = touch.collider;
@@ -143,7 +147,7 @@ void collideContact(ParticleStep& step, Touch touch)
     if (touch.touching || !step.paysForItsHeight(last)) step.hold(touch.touching ? touch.collider : last);
 }
 
-void iterate(ParticleStep& step, Touch touch)
+template <int kVariant> void iterate(ParticleStep<kVariant>& step, Touch touch)
 {
     const Touch first = touch;
     answerAverage(step, touch);
@@ -158,7 +162,7 @@ void iterate(ParticleStep& step, Touch touch)
     step.hold(touch.touching ? touch.collider : last);
 }
 
-void once(ParticleStep& step, const Touch& touch)
+template <int kVariant> void once(ParticleStep<kVariant>& step, const Touch& touch)
 {
     answerAverage(step, touch);
     const Vec3d before = step.endVelocity;
