@@ -123,6 +123,39 @@ TEST_CASE("the plan is explained without running anything")
     CHECK(folder.fileCount() == 3);
 }
 
+TEST_CASE("the plan tells what steps, memory and band it takes, and what it leaves out")
+{
+    const Prepared folder;
+    const auto explain = [&](const std::string& settings) {
+        const ToolRun run = runTool("collide " + (folder / "scene.toml") + " --explain --json" + settings);
+        INFO(run.err);
+        REQUIRE(run.exitCode == 0);
+        return Json::parse(run.out);
+    };
+    const Json plan = explain("");
+    const ToolRun done = runTool("collide " + (folder / "scene.toml") + " --json");
+    REQUIRE(done.exitCode == 0);
+    const Json run = Json::parse(done.out);
+    CHECK(plan["particles"] == run["particles"]);
+    CHECK(plan["steps"] == run["steps"]);
+    // The shares of a part of the particles are about those of all; times are not compared.
+    const double all = plan["trial"]["free"].get<double>() + plan["trial"]["near"].get<double>();
+    const double steps = run["particle_steps_per_second"].get<double>() * run["seconds"].get<double>();
+    CHECK(plan["trial"]["free"].get<double>() / all == Approx(run["free"].get<double>() / steps).margin(0.1));
+    CHECK(plan["expected_seconds"] > 0.0);
+    CHECK(plan["expected_bytes"] > 20000 * 60);
+    const std::string text = plan["plan"].dump();
+    CHECK_THAT(text, Catch::Contains("is needed") && Catch::Contains("expected: "));
+    CHECK_THAT(text, Catch::Contains("left out: collider velocities (none moves)"));
+    CHECK_THAT(explain(" --set particles.radius=0.0")["plan"].dump(), Catch::Contains("radii (particles are points)"));
+    CHECK(explain(" --set particles.interact=true")["expected_seconds"].is_null());
+    const ToolRun thin = runTool("collide " + (folder / "scene.toml") + " --explain --set particles.radius=3.0");
+    CHECK(thin.exitCode == 3);
+    CHECK(lineCount(thin.err) == 1);
+    CHECK_FALSE(explain("").contains("chosen"));
+    CHECK(explain(" --max-error 0.4vx")["chosen"]["storage"] == "float");
+}
+
 TEST_CASE("a scene's accuracy decides how its level sets are looked up")
 {
     const Prepared folder;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "collide_report.h"
 #include "option_values.h"
 #include "progress_bar.h"
 #include "report.h"
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/io/number_text.h"
-#include "vdbounce/scene/run.h"
 #include "vdbounce/scene/scene_file.h"
 
 #include <filesystem>
@@ -100,79 +100,13 @@ RunOptions runOptions(const CollideArguments& arguments)
     return options;
 }
 
-Json toJson(const FieldOptions& accuracy)
-{
-    return {{"lookup", nameOf(accuracy.lookup)},
-            {"normal", nameOf(accuracy.normal)},
-            {"storage", nameOf(accuracy.storage)}};
-}
-
-Json toJson(const RunReport& run)
-{
-    Json colliders = Json::array();
-    for (std::size_t i = 0; i < run.colliderNames.size(); ++i) {
-        colliders.push_back({{"name", run.colliderNames[i]},
-                             {"impulse", tool::toJson(run.tally.impulse[i])},
-                             {"angular_impulse", tool::toJson(run.tally.angularImpulse[i])}});
-    }
-    const StepTally& tally = run.tally;
-    Json json = {{"particles", run.particles},
-                 {"frames", run.frames},
-                 {"steps", run.steps},
-                 {"seconds", run.seconds},
-                 {"particle_steps_per_second", run.particleStepsPerSecond()},
-                 {"free", tally.free},
-                 {"near", tally.near},
-                 {"contacts", tally.contacts},
-                 {"swept", tally.swept},
-                 {"unresolved", tally.unresolved},
-                 {"rejected", run.rejected},
-                 {"deleted", run.deleted},
-                 {"max_penetration", tally.maxPenetration},
-                 {"energy_initial", run.energyInitial},
-                 {"energy_final", run.energyFinal},
-                 {"colliders", colliders},
-                 {"files", run.files}};
-    if (run.accuracy) {
-        json["chosen"] = toJson(run.accuracy->chosen);
-        json["measured_error_vx"] = run.accuracy->measuredErrorVx;
-    }
-    return json;
-}
-
-std::string toText(const RunReport& run)
-{
-    const StepTally& tally = run.tally;
-    std::string text = grouped(run.particles) + " particles, " + std::to_string(run.frames) + " frames, " +
-                       grouped(run.steps) + " steps in " + rounded(run.seconds) + " s (" +
-                       rounded(run.particleStepsPerSecond() * 1e-6) + " million particle steps a second)\n";
-    text += "particle steps: " + grouped(tally.free) + " free, " + grouped(tally.near) + " near, " +
-            grouped(tally.contacts) + " in contact, " + grouped(tally.swept) + " swept, " + grouped(tally.unresolved) +
-            " unresolved; " + grouped(run.rejected) + " particles rejected, " + grouped(run.deleted) + " deleted\n";
-    text += "deepest penetration " + rounded(tally.maxPenetration) + "; energy " + rounded(run.energyInitial) + " to " +
-            rounded(run.energyFinal);
-    if (run.accuracy) {
-        const FieldOptions& chosen = run.accuracy->chosen;
-        text += std::string("\nchosen by max_error: ") + nameOf(chosen.lookup) + " lookup, " + nameOf(chosen.normal) +
-                " normals, values kept as " + nameOf(chosen.storage) + "; measured error " +
-                rounded(run.accuracy->measuredErrorVx) + " voxels";
-    }
-    if (!run.files.empty())
-        text += "\nwrote " + std::to_string(run.files.size()) +
-                (run.files.size() == 1 ? " file, " : " files, the last ") + run.files.back();
-    return text;
-}
-
 void runCollide(const CollideArguments& arguments, const CommonOptions& common)
 {
     Scene scene = sceneFor(arguments);
     if (arguments.maxError) scene.maxError = arguments.maxError;
     if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, {});
     if (arguments.explain) {
-        const std::vector<std::string> lines = explainScene(scene);
-        std::string text;
-        for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-        report(common, {{"plan", lines}}, text);
+        reportExplanation(explainScene(scene), common);
         return;
     }
     const RunOptions options = runOptions(arguments);
@@ -180,7 +114,7 @@ void runCollide(const CollideArguments& arguments, const CommonOptions& common)
     progress.expectFrames(options.firstFrame, options.lastFrame < 0 ? scene.frames : options.lastFrame,
                           scene.stepsPerFrame);
     const RunReport run = runScene(scene, options, progress);
-    report(common, toJson(run), toText(run));
+    reportRun(run, common);
 }
 
 } // namespace
@@ -192,7 +126,8 @@ void addCollide(CLI::App& app, const CommonOptions& common)
     auto arguments = std::make_shared<CollideArguments>();
     CollideArguments& a = *arguments;
     verb->add_option("SCENE", a.sceneFile, "Scene file, .toml");
-    verb->add_flag("--explain", a.explain, "Print the plan and run nothing");
+    verb->add_flag("--explain", a.explain,
+                   "Print the plan and what to expect, tried out on some particles, and write nothing");
     verb->add_option("--set", a.overrides, "Change a key of the scene, time.dt=0.002; may be repeated")
         ->take_all()
         ->expected(1)

@@ -1,62 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "vdbounce/scene/explain.h"
+
+#include "vdbounce/contact/step_needs.h"
+#include "vdbounce/io/file_bytes.h"
 #include "vdbounce/io/number_text.h"
-#include "vdbounce/scene/run.h"
-#include "vdbounce/scene/scene_colliders.h"
+#include "vdbounce/io/particle_file.h"
+#include "vdbounce/scene/describe_collider.h"
 
 #include <cmath>
+#include <cstdio>
 
 namespace vdbounce {
 namespace {
 
-std::string describeShape(const PlaneField& plane)
+constexpr std::uint64_t kProgramBytes = 45'000'000; // with its libraries
+
+std::string fewDigits(double value)
 {
-    const Vec3d& n = plane.normal();
-    return "plane, normal (" + numberText(n.x()) + ", " + numberText(n.y()) + ", " + numberText(n.z()) + ")";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
 }
 
-std::string describeShape(const std::shared_ptr<const DistanceField>& field)
+std::string describeAccuracy(const FieldOptions& accuracy, const std::optional<AccuracyPlan>& plan)
 {
-    return "level set, " + std::to_string(field->blocks().blockCount()) + " leaves, voxel " +
-           numberText(field->voxelSize()) + ", band " + numberText(field->background()) + ", " +
-           std::to_string(field->memoryBytes() >> 20) + " MiB for lookup" +
-           (field->clipped() ? ", cut off by its box" : "");
-}
-
-std::string describeShape(const DeformingShape& shape)
-{
-    const DistanceField& first = shape.field->from();
-    return "deforming level sets, the first of " + std::to_string(first.blocks().blockCount()) + " leaves, voxel " +
-           numberText(first.voxelSize()) + ", band " + numberText(first.background());
-}
-
-std::string describeShape(const std::shared_ptr<const ImplicitField>& field)
-{
-    return std::string(field->exact() ? "exact distance by formula" : "combined by formula") +
-           (field->still() ? "" : ", its parts move");
-}
-
-// What the scene calls it, and what it is made of.
-std::string describeForm(const ColliderSpec& spec)
-{
-    if (spec.csg) {
-        const char* const kNames[] = {"union", "intersection", "subtraction", "complement"};
-        std::string text = std::string("csg ") + kNames[int(spec.csg->operation)] + " of ";
-        for (const std::string& name : spec.csg->of) text += (name == spec.csg->of.front() ? "'" : ", '") + name + "'";
-        return text + ", ";
-    }
-    if (spec.blobs) return "blobs, ";
-    if (spec.heightfield) return "heightfield, ";
-    const bool named = spec.formula && !std::holds_alternative<PlaneShape>(*spec.formula);
-    return named ? std::string(nameOf(*spec.formula)) + ", " : "";
-}
-
-// Nothing where no collider is a level set.
-std::string describeAccuracy(const Scene& scene, const ColliderSet& colliders)
-{
-    if (!std::isfinite(colliders.smallestVoxel())) return "";
-    const FieldOptions& accuracy = scene.accuracy;
-    return std::string("accuracy: ") + nameOf(accuracy.lookup) + " lookup, " + nameOf(accuracy.normal) +
-           " normals, values kept as " + nameOf(accuracy.storage);
+    std::string text = std::string("accuracy: ") + nameOf(accuracy.lookup) + " lookup, " + nameOf(accuracy.normal) +
+                       " normals, values kept as " + nameOf(accuracy.storage);
+    if (plan)
+        text += ", the cheapest within max_error: off by " + fewDigits(plan->error) + " (" +
+                fewDigits(plan->error / plan->voxel) + " voxels)";
+    return text;
 }
 
 std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
@@ -91,48 +64,104 @@ std::string describeLookups(const Scene& scene, const ColliderSet& colliders)
            (scene.repulsionRange.value > 0.0 ? " or are in range" : "");
 }
 
-std::string describeOmissions(const Scene& scene, const ColliderSet& colliders)
+std::string describeOmissions(const Scene& scene, const ColliderSet& colliders, const StepNeeds& needs, double radius)
 {
     std::string text;
     const auto leaveOut = [&](bool out, const char* what) {
         if (out) text += (text.empty() ? "left out: " : ", ") + std::string(what);
     };
-    leaveOut(colliders.still(), "collider velocities (none moves)");
+    leaveOut(!needs.motion, "collider velocities (none moves)");
+    leaveOut(!needs.several, "asking which collider is nearest (there is one)");
+    leaveOut(!needs.friction, "friction (none has any)");
+    leaveOut(!needs.taking, "sticking and deleting (none does)");
+    leaveOut(!(radius > 0.0), "radii (particles are points)");
     leaveOut(!colliders.anyFree(), "moving colliders by particles (none has a mass)");
     leaveOut(!scene.interact, "particle against particle (not asked for)");
-    leaveOut(!(scene.repulsionRange.value > 0.0), "repulsion (no range)");
-    leaveOut(!scene.hits, "records of hits (not asked for)");
-    leaveOut(true, "reordering");
+    leaveOut(!needs.repulsion, "repulsion (no range)");
+    leaveOut(!needs.hits, "records of hits (not asked for)");
     return text;
+}
+
+std::string percent(std::uint64_t part, std::uint64_t whole)
+{
+    return fewDigits(whole > 0 ? 100.0 * double(part) / double(whole) : 0.0) + " %";
+}
+
+std::string describeTrial(const Trial& trial)
+{
+    const StepTally& tally = trial.tally;
+    const std::uint64_t all = tally.free + tally.near;
+    return "steps: in a trial of " + std::to_string(trial.particles) + " particles over " +
+           std::to_string(trial.frames) + (trial.frames == 1 ? " frame " : " frames ") + percent(tally.free, all) +
+           " were free, " + percent(tally.near, all) + " looked something up; " + percent(tally.contacts, all) +
+           " touched, " +
+           (tally.swept == 0 ? "none was long enough for a sweep" : percent(tally.swept, all) + " were swept");
+}
+
+std::string describeExpectation(const Explanation& plan)
+{
+    std::string text = "expected: " + fewDigits(plan.trial.nsPerParticleStep) + " ns for a particle and step; " +
+                       std::to_string(plan.particles) + " particles in " + std::to_string(plan.steps) + " steps ";
+    text += plan.seconds ? "take about " + fewDigits(*plan.seconds) + " s" : "take longer, since they see each other";
+    return text + ", reading and writing apart, and " + sizeText(double(plan.bytes));
+}
+
+// Of a particle, bytes: arrays with an entry for each.
+std::uint64_t bytesOfOne(const Particles& particles, const Scene& scene)
+{
+    constexpr std::uint64_t kOfPass = sizeof(double) + 3; // clearance and flags
+    return 2 * sizeof(Vec3d) + sizeof(std::int64_t) + kOfPass + (particles.radius.empty() ? 0 : sizeof(double)) +
+           (particles.mass.empty() ? 0 : sizeof(double)) + (scene.hits ? sizeof(HitRecord) : 0);
+}
+
+// And as long as a file is written, measured with a million and four.
+std::uint64_t bytesWhileWritten(const std::string& file)
+{
+    if (file.empty()) return 0;
+    return fileEnding(file) == "csv" ? 95 : 57;
 }
 
 } // namespace
 
-std::vector<std::string> explainScene(const Scene& scene)
+Explanation explainScene(const Scene& asked)
 {
-    validate(scene);
-    const ColliderSet colliders = SceneColliders(scene).onTheWayTo(0);
+    validate(asked);
+    Explanation plan;
+    plan.accuracy = planAccuracy(asked, 0);
+    Scene scene = asked;
+    if (plan.accuracy) scene.accuracy = plan.accuracy->chosen;
+    SceneColliders loader(scene);
+    const ColliderSet colliders = loader.onTheWayTo(0);
     const ParticleDefaults defaults = particleDefaults(scene, colliders);
-    std::vector<std::string> lines;
+    const Particles particles = readParticles(scene.particleFile);
+    loader.requireBandsForRadius(colliders, particles, defaults);
+    const StepOptions options = stepOptions(scene, colliders);
+    const ContactReach reach = contactReach(particles, defaults, options);
+
+    std::vector<std::string>& lines = plan.lines;
     lines.push_back("time: " + std::to_string(scene.frames) + " frames of " + std::to_string(scene.stepsPerFrame) +
                     " steps of " + numberText(scene.dt) + " s");
-    lines.push_back("particles: " + scene.particleFile + ", radius " + numberText(defaults.radius) + " and mass " +
-                    numberText(defaults.mass) + " where it carries none");
+    lines.push_back("particles: " + std::to_string(particles.size()) + " of " + scene.particleFile + ", radius " +
+                    numberText(defaults.radius) + " and mass " + numberText(defaults.mass) + " where it carries none");
     const std::vector<const ColliderSpec*> specs = collidersMet(scene);
-    for (std::size_t i = 0; i < colliders.size(); ++i) {
-        const Collider& collider = colliders[i];
-        lines.push_back("collider '" + collider.name + "': " + describeForm(*specs[i]) +
-                        std::visit([](const auto& shape) { return describeShape(shape); }, collider.shape) +
-                        ", restitution " + numberText(collider.restitution) + ", friction " +
-                        numberText(collider.friction));
-    }
-    const std::string accuracy = describeAccuracy(scene, colliders);
-    if (!accuracy.empty()) lines.push_back(accuracy);
+    for (std::size_t i = 0; i < colliders.size(); ++i)
+        lines.push_back(describeCollider(*specs[i], colliders[i], reach));
+    if (std::isfinite(colliders.smallestVoxel())) lines.push_back(describeAccuracy(scene.accuracy, plan.accuracy));
     lines.push_back(describeScheme(scene));
     lines.push_back(describeSweep(scene, colliders));
     lines.push_back(describeLookups(scene, colliders));
-    lines.push_back(describeOmissions(scene, colliders));
-    return lines;
+    lines.push_back(describeOmissions(scene, colliders, needsOf(colliders, options, scene.hits), reach.radius));
+
+    plan.particles = particles.size();
+    plan.steps = std::uint64_t(scene.frames) * std::uint64_t(scene.stepsPerFrame);
+    plan.bytes = loader.memoryBytes() + kProgramBytes +
+                 plan.particles * (bytesOfOne(particles, scene) + bytesWhileWritten(scene.outputFile));
+    plan.trial = tryOut(scene, loader, particles, defaults);
+    if (!scene.interact && !colliders.anyFree())
+        plan.seconds = plan.trial.nsPerParticleStep * 1e-9 * double(plan.particles) * double(plan.steps);
+    lines.push_back(describeTrial(plan.trial));
+    lines.push_back(describeExpectation(plan));
+    return plan;
 }
 
 } // namespace vdbounce

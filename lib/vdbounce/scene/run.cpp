@@ -100,12 +100,7 @@ public:
 
     RunReport run()
     {
-        PassOptions options;
-        options.step = stepOptions(scene_, colliders_);
-        options.defaults = defaults_;
-        options.hits = scene_.hits;
-        options.interact = scene_.interact;
-        options.particles = scene_.particles;
+        PassOptions options = passOptions(scene_, colliders_, defaults_);
         options.firstStep = std::uint64_t(options_.firstFrame) * std::uint64_t(scene_.stepsPerFrame);
         ParticlePass pass(particles_, colliders_, options);
         if (options_.firstFrame == 0) writeFrame(0);

@@ -58,7 +58,4 @@ struct RunReport {
 /// range, Interrupted.
 RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& progress);
 
-/// What runScene would do, in words, one line each: what is read, what a step will look at and what it leaves out.
-std::vector<std::string> explainScene(const Scene& scene);
-
 } // namespace vdbounce

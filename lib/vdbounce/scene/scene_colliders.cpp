@@ -9,6 +9,7 @@
 #include "vdbounce/io/grid_file.h"
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/particle_file.h"
+#include "vdbounce/scene/band_needs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@
 
 namespace vdbounce {
 namespace {
-
-// Trilinear lookup and central differences at phi = radius use voxels up to two cells further out.
-constexpr double kLookupReachVx = 2.0;
 
 using FieldPtr = std::shared_ptr<const DistanceField>;
 
@@ -61,15 +59,6 @@ std::optional<BodyMass> bodyOf(const ColliderSpec& spec, const Shape& shape)
     return body;
 }
 
-double largestRadius(const Particles& particles, const ParticleDefaults& defaults)
-{
-    double largest = particles.radius.empty() ? defaults.radius : 0.0;
-    for (double radius : particles.radius) {
-        if (std::isfinite(radius)) largest = std::max(largest, radius);
-    }
-    return largest;
-}
-
 double inWorld(const Length& length, const char* key, const ColliderSet& colliders)
 {
     if (!(length.value > 0.0)) return 0.0;
@@ -78,19 +67,6 @@ double inWorld(const Length& length, const char* key, const ColliderSet& collide
                          "give it in world units");
     }
     return length.world(colliders.smallestVoxel());
-}
-
-// `band` is the width of the narrow band on the `side` that is touched.
-void requireBand(const DistanceField& field, double band, const std::string& file, const std::string& side,
-                 double reach, double radius)
-{
-    const double needed = reach + kLookupReachVx * field.voxelSize();
-    if (field.empty() || reach == 0.0 || band >= needed * (1.0 - 1e-6)) return;
-    throw InputError(file,
-                     "its narrow band of " + numberText(band) + " is too thin for a particle radius of " +
-                         numberText(radius) +
-                         (reach > radius ? " and repulsion from " + numberText(reach - radius) + " on" : ""),
-                     "make it with --" + side + " " + numberText(std::ceil(needed / field.voxelSize())) + "vx or more");
 }
 
 } // namespace
@@ -108,6 +84,16 @@ SceneColliders::SceneColliders(const Scene& scene) : scene_(scene)
         FieldPtr& field = fields_[spec.file];
         if (!field) field = loadField(spec.file, scene.accuracy);
     }
+}
+
+std::size_t SceneColliders::memoryBytes() const
+{
+    std::size_t bytes = 0;
+    for (const auto& [file, field] : fields_) bytes += field->memoryBytes();
+    for (const auto& [sequence, moments] : moments_) {
+        for (const auto& [frame, moment] : moments) bytes += moment.field->memoryBytes();
+    }
+    return bytes;
 }
 
 SceneColliders::Moment SceneColliders::momentOf(const std::string& sequence, int frame)
@@ -200,16 +186,25 @@ StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders)
     return options;
 }
 
+PassOptions passOptions(const Scene& scene, const ColliderSet& colliders, const ParticleDefaults& defaults)
+{
+    PassOptions options;
+    options.step = stepOptions(scene, colliders);
+    options.defaults = defaults;
+    options.hits = scene.hits;
+    options.interact = scene.interact;
+    options.particles = scene.particles;
+    return options;
+}
+
 void SceneColliders::requireBandsForRadius(const ColliderSet& colliders, const Particles& particles,
                                            const ParticleDefaults& defaults) const
 {
-    const double radius = largestRadius(particles, defaults);
-    const double reach = radius + stepOptions(scene_, colliders).repulsion.range;
-    for (const auto& [file, field] : fields_) requireBand(*field, field->background(), file, "exterior", reach, radius);
+    const ContactReach reach = contactReach(particles, defaults, stepOptions(scene_, colliders));
+    for (const auto& [file, field] : fields_) requireBand(*field, field->background(), file, "exterior", reach);
     for (const auto& [sequence, moments] : moments_) {
         for (const auto& [frame, moment] : moments)
-            requireBand(*moment.field, moment.field->background(), framePath(sequence, frame), "exterior", reach,
-                        radius);
+            requireBand(*moment.field, moment.field->background(), framePath(sequence, frame), "exterior", reach);
     }
     for (const ColliderSpec& spec : scene_.colliders) {
         if (!spec.csg) continue;
@@ -220,7 +215,7 @@ void SceneColliders::requireBandsForRadius(const ColliderSet& colliders, const P
             const std::string file = fieldKey(specOf(spec.csg->of[i]));
             if (fields_.count(file) == 0) continue;
             const DistanceField& field = *fields_.at(file);
-            requireBand(field, field.interior(), file, "interior", reach, radius);
+            requireBand(field, field.interior(), file, "interior", reach);
         }
     }
 }

@@ -25,11 +25,13 @@ public:
     /// throws InputError where one is missing.
     ColliderSet onTheWayTo(int frame);
 
-    /// Throws InputError when a particle is too large for the narrow band of a level set: phi is not known beyond it,
-    /// so touching at phi = radius would go unnoticed, as would coming within the range of repulsion. Names the band
-    /// that would do. Asks the level sets of the last frame.
+    /// Throws InputError when a particle is too large for the narrow band of a level set, see band_needs.h. Asks the
+    /// level sets of the last frame.
     void requireBandsForRadius(const ColliderSet& colliders, const Particles& particles,
                                const ParticleDefaults& defaults) const;
+
+    /// Of the level sets, as they are laid out for lookup.
+    std::size_t memoryBytes() const;
 
 private:
     using FieldPtr = std::shared_ptr<const DistanceField>;
@@ -56,5 +58,8 @@ ParticleDefaults particleDefaults(const Scene& scene, const ColliderSet& collide
 
 /// The options of a scene's steps; lengths in voxels need the colliders.
 StepOptions stepOptions(const Scene& scene, const ColliderSet& colliders);
+
+/// And of its passes.
+PassOptions passOptions(const Scene& scene, const ColliderSet& colliders, const ParticleDefaults& defaults);
 
 } // namespace vdbounce
