@@ -93,6 +93,27 @@ TEST_CASE("bench trade has what each choice costs and how wrong it is")
     CHECK(sphere(1.0 / 64, "trilinear", "half")["cost"]["bytes"] < fine["cost"]["bytes"]);
 }
 
+TEST_CASE("bench trade has gradients that are stored, with the errors of those that are computed")
+{
+    const Json run = trade("");
+    for (const char* group : {"sphere, lookups", "torus, lookups", "box, lookups"}) {
+        for (const double voxel : {1.0 / 64, 1.0 / 32, 1.0 / 16}) {
+            const auto usual = [&](const char* normal) {
+                return caseOf(run, group,
+                              {{"voxel", voxel}, {"lookup", "trilinear"}, {"normal", normal}, {"storage", "float"}});
+            };
+            const Json stored = usual("precomputed");
+            const Json computed = usual("central");
+            for (const auto& [name, value] : computed["error"].items()) {
+                INFO(group << ", voxel " << voxel << ", " << name);
+                const bool angle = name.find("_deg") != std::string::npos;
+                CHECK(errorOf(stored, name.c_str()) == Approx(value.get<double>()).margin(angle ? 1e-3 : 1e-6));
+            }
+            CHECK(stored["cost"]["bytes"] > computed["cost"]["bytes"]);
+        }
+    }
+}
+
 TEST_CASE("bench trade measures steps against ways that are known")
 {
     const Json run = trade("");

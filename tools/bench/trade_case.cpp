@@ -14,7 +14,7 @@ double TradeCost::ns() const { return median(nsPerParticleStep); }
 std::string TradeCase::name() const
 {
     std::string text = group + ", voxel " + numberText(settings.voxel) + ", " + nameOf(settings.field.lookup) + ", " +
-                       nameOf(settings.field.normal) + ", " + nameOf(settings.field.storage);
+                       settings.normalName() + ", " + nameOf(settings.field.storage);
     if (settings.scheme) text += std::string(", ") + nameOf(*settings.scheme);
     if (settings.sweep) text += std::string(", sweep ") + nameOf(*settings.sweep);
     if (settings.dt) text += ", dt " + numberText(*settings.dt);

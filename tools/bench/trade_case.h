@@ -18,12 +18,15 @@ struct TradeSettings {
     std::optional<Scheme> scheme;
     std::optional<Sweep> sweep;
     std::optional<double> dt; ///< seconds
+    bool precomputed = false; ///< gradients are stored beside phi, whatever `field.normal` is
+
+    const char* normalName() const { return precomputed ? "precomputed" : nameOf(field.normal); }
 };
 
 struct TradeCost {
     std::vector<double> nsPerParticleStep; ///< or per lookup, one thread; of each repetition
     double buildSeconds = 0.0;             ///< the field from the grid in memory, all threads; the fastest repetition
-    std::size_t bytes = 0;                 ///< of the field
+    std::size_t bytes = 0;                 ///< of the field, with gradients that are stored
 
     double ns() const; ///< the median
 };

@@ -2,6 +2,7 @@
 #include "bench/trade_lookups.h"
 
 #include "bench/point_sets.h"
+#include "bench/precomputed_gradients.h"
 #include "bench/stopwatch.h"
 
 #include "vdbounce/base/parallel.h"
@@ -79,24 +80,60 @@ std::vector<std::pair<std::string, double>> errorsOf(const std::vector<PointSamp
             {"normal_max_deg", degrees.largest}};
 }
 
-TradeCase measure(const LevelSetGrid& grid, const FieldOptions& choice, const std::vector<Vec3d>& points,
+// What is looked up: a field, and gradients of its voxels where they are stored.
+struct LookedUp {
+    LookedUp(const LevelSetGrid& grid, const TradeSettings& settings) : field(grid, settings.field)
+    {
+        if (settings.precomputed) gradients.emplace(field);
+    }
+
+    std::size_t memoryBytes() const { return gradients ? gradients->memoryBytes() : field.memoryBytes(); }
+
+    void lookUp(const std::vector<Vec3d>& points, std::vector<PointSample>& samples) const
+    {
+        if (gradients) {
+            gradients->sample(points.data(), points.size(), samples.data());
+        } else {
+            samplePoints(field, points.data(), points.size(), samples.data());
+        }
+    }
+
+    DistanceField field;
+    std::optional<PrecomputedGradients> gradients;
+};
+
+TradeCase measure(const LevelSetGrid& grid, const TradeSettings& settings, const std::vector<Vec3d>& points,
                   const Truth& truth, int repetitions)
 {
     TradeCase one;
+    one.settings = settings;
     std::vector<double> build;
     std::vector<PointSample> samples(points.size());
     for (int r = 0; r < repetitions; ++r) {
-        std::optional<DistanceField> field;
-        build.push_back(seconds([&] { field.emplace(grid, choice); }));
-        one.settings = {field->transform().voxelSize().maxCoeff(), choice, {}, {}, {}};
-        one.cost.bytes = field->memoryBytes();
+        std::optional<LookedUp> body;
+        build.push_back(seconds([&] { body.emplace(grid, settings); }));
+        one.settings.voxel = body->field.transform().voxelSize().maxCoeff();
+        one.cost.bytes = body->memoryBytes();
         const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-        one.cost.nsPerParticleStep.push_back(nanosecondsAPoint(
-            points.size(), [&] { samplePoints(*field, points.data(), points.size(), samples.data()); }));
+        one.cost.nsPerParticleStep.push_back(nanosecondsAPoint(points.size(), [&] { body->lookUp(points, samples); }));
     }
     one.cost.buildSeconds = *std::min_element(build.begin(), build.end());
     one.errors = errorsOf(samples, truth, one.settings.voxel);
     return one;
+}
+
+// Of every voxel size.
+std::vector<TradeSettings> allSettings()
+{
+    std::vector<TradeSettings> all;
+    for (const Lookup lookup : {Lookup::Nearest, Lookup::Trilinear, Lookup::Cubic}) {
+        for (const Normal normal : {Normal::Central, Normal::Analytic}) {
+            for (const Storage storage : {Storage::Float, Storage::Half, Storage::Fixed8})
+                all.push_back({0.0, {lookup, normal, storage}, {}, {}, {}});
+        }
+    }
+    all.push_back({0.0, {}, {}, {}, {}, true});
+    return all;
 }
 
 } // namespace
@@ -108,14 +145,10 @@ std::vector<TradeCase> tradeLookups(const TradeSubject& subject, const TradeOpti
     const Truth truth = truthAt(subject, points);
     std::vector<TradeCase> cases;
     for (const LevelSetGrid& grid : subject.grids) {
-        for (const Lookup lookup : {Lookup::Nearest, Lookup::Trilinear, Lookup::Cubic}) {
-            for (const Normal normal : {Normal::Central, Normal::Analytic}) {
-                for (const Storage storage : {Storage::Float, Storage::Half, Storage::Fixed8}) {
-                    throwIfStopped(progress);
-                    cases.push_back(measure(grid, {lookup, normal, storage}, points, truth, options.repetitions));
-                    cases.back().group = subject.name + ", lookups";
-                }
-            }
+        for (const TradeSettings& settings : allSettings()) {
+            throwIfStopped(progress);
+            cases.push_back(measure(grid, settings, points, truth, options.repetitions));
+            cases.back().group = subject.name + ", lookups";
         }
     }
     return cases;

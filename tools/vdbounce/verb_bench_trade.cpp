@@ -38,7 +38,7 @@ Json toJson(const bench::TradeSettings& settings)
 {
     Json json = {{"voxel", settings.voxel},
                  {"lookup", nameOf(settings.field.lookup)},
-                 {"normal", nameOf(settings.field.normal)},
+                 {"normal", settings.normalName()},
                  {"storage", nameOf(settings.field.storage)},
                  {"scheme", nullptr},
                  {"sweep", nullptr},
