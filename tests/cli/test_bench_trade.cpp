@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/run_tool.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -55,6 +56,39 @@ void checkPareto(const Json& run, const std::string& group, const char* error)
         optimal += beaten ? 0 : 1;
     }
     CHECK(optimal > 0);
+}
+
+// A folder with a ball, a cloud of 200 particles above it and a scene with these lines added.
+class FallingCloud : public TemporaryFolder {
+public:
+    explicit FallingCloud(const std::string& lines)
+    {
+        REQUIRE(runTool("make sphere --center 0,0,0 --radius 1 --voxel 0.1 -o " + (*this / "ball.vdb")).exitCode == 0);
+        REQUIRE(runTool("emit box --min -0.8,1.3,-0.8 --max 0.8,1.8,0.8 -n 200 -o " + (*this / "cloud.csv")).exitCode ==
+                0);
+        write("scene.toml", "[output]\nfile = \"out.csv\"\n[particles]\nfile = \"cloud.csv\"\nradius = 0.02\n" + lines);
+    }
+
+    ToolRun run(const std::string& options = "--repetitions 1") const
+    {
+        return runTool("bench trade " + (*this / "scene.toml") + " " + options + " --json");
+    }
+
+    Json cases() const
+    {
+        const ToolRun done = run();
+        INFO(done.err);
+        REQUIRE(done.exitCode == 0);
+        CHECK_FALSE(std::filesystem::exists(*this / "out.csv"));
+        return Json::parse(done.out);
+    }
+};
+
+std::set<std::string> errorNames(const Json& one)
+{
+    std::set<std::string> names;
+    for (const auto& [name, value] : one["error"].items()) names.insert(name);
+    return names;
 }
 
 } // namespace
@@ -162,4 +196,97 @@ TEST_CASE("bench trade takes meshes and level sets")
     // Before measuring.
     CHECK(runTool("bench trade --html missing/trade.html").exitCode == 2);
     CHECK(runTool("bench trade --html trade.txt").exitCode == 2);
+}
+
+TEST_CASE("bench trade runs a scene with every choice")
+{
+    const FallingCloud folder("[contact]\nsweep = \"always\"\n[[collider]]\nfile = \"ball.vdb\"\n");
+    const Json run = folder.cases();
+    std::set<double> timeSteps;
+    for (const Json& one : run["cases"]) {
+        CHECK(one["group"] == "scene.toml, steps");
+        CHECK(one["settings"]["voxel"] == Approx(0.1));
+        for (const char* key : {"lookup", "normal", "storage", "scheme", "sweep"})
+            CHECK(one["settings"].at(key).is_string());
+        timeSteps.insert(one["settings"]["dt"].get<double>());
+        for (const char* key : {"ns_per_particle_step", "build_seconds", "bytes"}) CHECK(one["cost"].at(key) > 0.0);
+        CHECK(errorNames(one) == std::set<std::string>{"place_of_impact_vx", "place_of_impact_max_vx",
+                                                       "time_of_impact_s", "time_of_impact_max_s", "missed",
+                                                       "penetration_vx", "energy_drift", "final_position_vx"});
+        for (const auto& [name, value] : one["error"].items()) CHECK(value.get<double>() >= 0.0);
+        CHECK(errorOf(one, "missed") < 0.1);
+    }
+    CHECK(run["cases"].size() == 18 + 35);
+    CHECK(timeSteps == std::set<double>{0.008, 0.004, 0.002, 0.001});
+    checkPareto(run, "scene.toml, steps", "place_of_impact_vx");
+
+    const auto step = [&](const char* lookup, const char* normal, const char* sweep, double dt) {
+        return caseOf(run, "scene.toml, steps",
+                      {{"lookup", lookup},
+                       {"normal", normal},
+                       {"storage", "float"},
+                       {"scheme", "collide-contact"},
+                       {"sweep", sweep},
+                       {"dt", dt}});
+    };
+    for (const char* error : {"place_of_impact_vx", "time_of_impact_s"}) {
+        const double nearest = errorOf(step("nearest", "central", "always", 0.004), error);
+        const double trilinear = errorOf(step("trilinear", "central", "always", 0.004), error);
+        CHECK(trilinear < 0.3 * nearest);
+        CHECK(errorOf(step("cubic", "analytic", "always", 0.004), error) < 0.3 * trilinear);
+        // Where nothing is swept a particle is up to a step's way too deep.
+        CHECK(errorOf(step("trilinear", "central", "never", 0.001), error) <
+              0.5 * errorOf(step("trilinear", "central", "never", 0.008), error));
+    }
+}
+
+TEST_CASE("bench trade runs scenes without level sets, free bodies and colliders that delete")
+{
+    const FallingCloud folder(
+        "[time]\nsteps_per_frame = 1\nframes = 200\n[[collider]]\nsphere = { center = [0, 0, 0], radius = 1 }\n"
+        "mass = 1\nmotion = { velocity = [0, 5, 0] }\n"
+        "[[collider]]\nplane = { point = [0, -1, 0], normal = [0, 1, 0] }\non_hit = \"delete\"\n");
+    const Json run = folder.cases();
+    // Frames of one step have none that is twice as long.
+    CHECK(run["cases"].size() == 27);
+    for (const Json& one : run["cases"]) {
+        CHECK(one["settings"]["voxel"].is_null());
+        CHECK(one["cost"]["bytes"] == 0);
+        CHECK(errorOf(one, "place_of_impact") < 0.05);
+    }
+    checkPareto(run, "scene.toml, steps", "place_of_impact");
+}
+
+TEST_CASE("bench trade runs scenes with moving colliders, sequences and particles that meet")
+{
+    const FallingCloud folder(
+        "interact = true\n[time]\nframes = 2\nsteps_per_frame = 3\ndt = 0.05\n[[collider]]\nsequence = \"s.#.vdb\"\n"
+        "[[collider]]\nsphere = { center = [0, -2, 0], radius = 0.5 }\n"
+        "motion = { velocity = [0, 30, 0] }\n");
+    for (int frame = 0; frame <= 2; ++frame) {
+        REQUIRE(runTool("make sphere --center 0,0,0 --voxel 0.1 --radius 1." + std::to_string(frame) + " -o " +
+                        (folder / ("s." + std::to_string(frame) + ".vdb")))
+                    .exitCode == 0);
+    }
+    for (const Json& one : folder.cases()["cases"]) {
+        CHECK(errorOf(one, "missed") < 0.1);
+        CHECK(errorOf(one, "final_position_vx") < 5.0);
+    }
+}
+
+TEST_CASE("bench trade says in one line why a scene cannot be measured")
+{
+    const auto refused = [](const FallingCloud& folder, int exitCode, const char* reason) {
+        const ToolRun run = folder.run();
+        INFO(run.err);
+        CHECK(run.exitCode == exitCode);
+        CHECK(lineCount(run.err) == 1);
+        CHECK_THAT(run.err, Catch::Contains(reason));
+    };
+    refused(FallingCloud("[time]\ndt = -1.0\n"), 3, "scene.toml:7: time.dt");
+    refused(FallingCloud("[[collider]]\nfile = \"missing.vdb\"\n"), 3, "missing.vdb");
+    refused(FallingCloud("[time]\nframes = 0\n"), 2, "time.frames");
+    refused(FallingCloud("[[collider]]\nplane = { point = [0, -9, 0], normal = [0, 1, 0] }\n"), 2, "25 of 48 frames");
+    refused(FallingCloud("[[collider]]\nname = \"ball\"\nfile = \"ball.vdb\"\nmass = 1\non_hit = \"delete\"\n"), 2,
+            "'ball'");
 }

@@ -13,8 +13,10 @@ double TradeCost::ns() const { return median(nsPerParticleStep); }
 
 std::string TradeCase::name() const
 {
-    std::string text = group + ", voxel " + numberText(settings.voxel) + ", " + nameOf(settings.field.lookup) + ", " +
-                       settings.normalName() + ", " + nameOf(settings.field.storage);
+    std::string text = group;
+    if (settings.voxel > 0.0) text += ", voxel " + numberText(settings.voxel);
+    text += std::string(", ") + nameOf(settings.field.lookup) + ", " + settings.normalName() + ", " +
+            nameOf(settings.field.storage);
     if (settings.scheme) text += std::string(", ") + nameOf(*settings.scheme);
     if (settings.sweep) text += std::string(", sweep ") + nameOf(*settings.sweep);
     if (settings.dt) text += ", dt " + numberText(*settings.dt);

@@ -11,9 +11,9 @@
 
 namespace vdbounce::bench {
 
-/// What was chosen. Steps have all of it, lookups alone none of the last three.
+/// What was chosen. Steps have all of it, lookups alone no scheme, sweep and dt.
 struct TradeSettings {
-    double voxel = 0.0; ///< longest side, world units
+    double voxel = 0.0; ///< longest side, of scenes the finest level set's shortest, world units; 0: there is none
     FieldOptions field;
     std::optional<Scheme> scheme;
     std::optional<Sweep> sweep;
@@ -25,8 +25,9 @@ struct TradeSettings {
 
 struct TradeCost {
     std::vector<double> nsPerParticleStep; ///< or per lookup, one thread; of each repetition
-    double buildSeconds = 0.0;             ///< the field from the grid in memory, all threads; the fastest repetition
-    std::size_t bytes = 0;                 ///< of the field, with gradients that are stored
+    double buildSeconds = 0.0; ///< the field from the grid in memory, all threads, the fastest repetition; of scenes
+                               ///< all colliders from their files, once
+    std::size_t bytes = 0;     ///< of the field, with gradients that are stored; of scenes all level sets
 
     double ns() const; ///< the median
 };

@@ -11,6 +11,7 @@ namespace vdbounce::bench {
 struct TradeOptions {
     std::size_t points = 100'000; ///< looked up, within a voxel of the surface
     std::size_t shots = 2000;     ///< particles of each way to step
+    int frames = 0;               ///< of a scene, at most; 0: those of its first second
     int repetitions = 3;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/machine.h"
+#include "bench/trade_scene.h"
 #include "bench/trade_steps.h"
 #include "bench_report.h"
 #include "option_values.h"
@@ -30,19 +31,22 @@ std::string commandOf(const BenchTradeArguments& arguments)
     const bench::TradeOptions& options = arguments.options;
     std::string text = "vdbounce bench trade";
     for (const std::string& file : arguments.files) text += " " + file;
-    return text + " --dim " + std::to_string(arguments.dim) + " --points " + std::to_string(options.points) +
-           " --shots " + std::to_string(options.shots) + " --repetitions " + std::to_string(options.repetitions);
+    text += " --dim " + std::to_string(arguments.dim) + " --points " + std::to_string(options.points) + " --shots " +
+            std::to_string(options.shots);
+    if (options.frames > 0) text += " --frames " + std::to_string(options.frames);
+    return text + " --repetitions " + std::to_string(options.repetitions);
 }
 
 Json toJson(const bench::TradeSettings& settings)
 {
-    Json json = {{"voxel", settings.voxel},
+    Json json = {{"voxel", nullptr},
                  {"lookup", nameOf(settings.field.lookup)},
                  {"normal", settings.normalName()},
                  {"storage", nameOf(settings.field.storage)},
                  {"scheme", nullptr},
                  {"sweep", nullptr},
                  {"dt", nullptr}};
+    if (settings.voxel > 0.0) json["voxel"] = settings.voxel;
     if (settings.scheme) json["scheme"] = nameOf(*settings.scheme);
     if (settings.sweep) json["sweep"] = nameOf(*settings.sweep);
     if (settings.dt) json["dt"] = *settings.dt;
@@ -91,15 +95,28 @@ std::string textOf(std::vector<bench::TradeCase> cases)
     return text;
 }
 
-std::vector<bench::TradeSubject> subjectsOf(const BenchTradeArguments& arguments, Progress& progress)
+void append(std::vector<bench::TradeCase> some, std::vector<bench::TradeCase>& cases)
 {
-    if (arguments.files.empty()) return bench::analyticSubjects(progress);
-    std::vector<bench::TradeSubject> subjects;
-    for (const std::string& file : arguments.files) {
-        subjects.push_back(isMeshFile(file) ? bench::meshSubject(file, arguments.dim, progress)
-                                            : bench::fieldSubject(file));
-    }
-    return subjects;
+    std::move(some.begin(), some.end(), std::back_inserter(cases));
+}
+
+std::vector<bench::TradeCase> tradeShapes(const bench::TradeOptions& options, Progress& progress)
+{
+    std::vector<bench::TradeCase> cases;
+    for (const bench::TradeSubject& subject : bench::analyticSubjects(progress))
+        append(bench::tradeLookups(subject, options, progress), cases);
+    append(bench::tradeShots(options, progress), cases);
+    append(bench::tradeSlides(options, progress), cases);
+    return cases;
+}
+
+std::vector<bench::TradeCase> tradeFile(const std::string& file, const BenchTradeArguments& arguments,
+                                        Progress& progress)
+{
+    if (std::filesystem::path(file).extension() == ".toml") return bench::tradeScene(file, arguments.options, progress);
+    const bench::TradeSubject subject =
+        isMeshFile(file) ? bench::meshSubject(file, arguments.dim, progress) : bench::fieldSubject(file);
+    return bench::tradeLookups(subject, arguments.options, progress);
 }
 
 // Before minutes of measuring.
@@ -117,17 +134,10 @@ void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& co
 {
     requirePage(arguments);
     std::vector<bench::TradeCase> cases;
-    const auto add = [&](std::vector<bench::TradeCase> some) {
-        std::move(some.begin(), some.end(), std::back_inserter(cases));
-    };
     {
         ProgressBar progress(common, "bench trade");
-        for (const bench::TradeSubject& subject : subjectsOf(arguments, progress))
-            add(bench::tradeLookups(subject, arguments.options, progress));
-        if (arguments.files.empty()) {
-            add(bench::tradeShots(arguments.options, progress));
-            add(bench::tradeSlides(arguments.options, progress));
-        }
+        if (arguments.files.empty()) append(tradeShapes(arguments.options, progress), cases);
+        for (const std::string& file : arguments.files) append(tradeFile(file, arguments, progress), cases);
     }
     bench::markPareto(cases);
     Json json = {{"machine", bench::machineText()}, {"command", commandOf(arguments)}, {"cases", Json::array()}};
@@ -143,7 +153,8 @@ void addBenchTrade(CLI::App& bench, const CommonOptions& common)
     auto arguments = std::make_shared<BenchTradeArguments>();
     auto* trade = bench.add_subcommand("trade", "What each choice of speed costs in accuracy");
     trade->add_option("FILE", arguments->files,
-                      "Level sets, .vdb, or meshes; without any shapes with known answers, and steps");
+                      "Level sets, .vdb, meshes, or scenes, .toml: every lookup and every way to step against the "
+                      "finest of both; without any shapes with known answers, and steps");
     trade->add_option("--dim", arguments->dim, "Voxels on a mesh's longest side, and half and a quarter as many")
         ->check(CLI::Range(8, 4096))
         ->capture_default_str()
@@ -152,16 +163,24 @@ void addBenchTrade(CLI::App& bench, const CommonOptions& common)
         ->check(CLI::Range(std::size_t(100), std::size_t(100'000'000)))
         ->capture_default_str()
         ->type_name("N");
-    trade->add_option("--shots", arguments->options.shots, "Particles to step")
+    trade
+        ->add_option("--shots", arguments->options.shots,
+                     "Particles to step; of a scene's own at most so many, evenly picked")
         ->check(CLI::Range(std::size_t(10), std::size_t(10'000'000)))
         ->capture_default_str()
+        ->type_name("N");
+    trade
+        ->add_option("--frames", arguments->options.frames,
+                     "Frames of a scene to run, at most (default: those of its first second)")
+        ->check(CLI::Range(1, 1'000'000'000))
         ->type_name("N");
     addRepetitions(*trade, arguments->options.repetitions);
     trade
         ->add_option("--html", arguments->html,
                      "Write a page with the curves of error over cost, which opens from disk")
         ->type_name("REPORT.html");
-    trade->footer("Example:\n  vdbounce bench trade bunny.obj --html trade.html");
+    trade->footer("Examples:\n  vdbounce bench trade bunny.obj --html trade.html\n"
+                  "  vdbounce bench trade scene.toml --shots 500");
     trade->callback([arguments, &common] { runWith(common, [&] { runBenchTrade(*arguments, common); }); });
 }
 

@@ -86,16 +86,6 @@ SceneColliders::SceneColliders(const Scene& scene) : scene_(scene)
     }
 }
 
-std::size_t SceneColliders::memoryBytes() const
-{
-    std::size_t bytes = 0;
-    for (const auto& [file, field] : fields_) bytes += field->memoryBytes();
-    for (const auto& [sequence, moments] : moments_) {
-        for (const auto& [frame, moment] : moments) bytes += moment.field->memoryBytes();
-    }
-    return bytes;
-}
-
 SceneColliders::Moment SceneColliders::momentOf(const std::string& sequence, int frame)
 {
     std::map<int, Moment>& moments = moments_[sequence];
@@ -218,6 +208,16 @@ void SceneColliders::requireBandsForRadius(const ColliderSet& colliders, const P
             requireBand(field, field.interior(), file, "interior", reach);
         }
     }
+}
+
+std::size_t SceneColliders::memoryBytes() const
+{
+    std::size_t bytes = 0;
+    for (const auto& [file, field] : fields_) bytes += field->memoryBytes();
+    for (const auto& [sequence, moments] : moments_) {
+        for (const auto& [frame, moment] : moments) bytes += moment.field->memoryBytes();
+    }
+    return bytes;
 }
 
 } // namespace vdbounce

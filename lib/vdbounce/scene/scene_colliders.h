@@ -30,7 +30,7 @@ public:
     void requireBandsForRadius(const ColliderSet& colliders, const Particles& particles,
                                const ParticleDefaults& defaults) const;
 
-    /// Of the level sets, as they are laid out for lookup.
+    /// Of the level sets that are held now: of sequences two frames'.
     std::size_t memoryBytes() const;
 
 private:

@@ -30,9 +30,17 @@ const ERROR_NAMES = {
   normal_mean_deg: { label: "normal error, mean", short: "normal, mean", unit: "°" },
   normal_max_deg: { label: "normal error, largest", short: "normal, largest", unit: "°" },
   time_of_impact_s: { label: "time of impact, error", short: "time of impact", unit: "s" },
+  time_of_impact_max_s: { label: "time of impact, largest error", short: "time of impact, largest", unit: "s" },
   place_of_impact_vx: { label: "place of impact, error", short: "place of impact", unit: "vx" },
+  place_of_impact_max_vx: { label: "place of impact, largest error", short: "place of impact, largest", unit: "vx" },
+  place_of_impact: { label: "place of impact, error", short: "place of impact", unit: "" },
+  place_of_impact_max: { label: "place of impact, largest error", short: "place of impact, largest", unit: "" },
+  missed: { label: "particles that missed", short: "missed", unit: "of 1" },
   penetration_vx: { label: "penetration", unit: "vx" },
+  penetration: { label: "penetration", unit: "" },
   energy_drift: { label: "energy drift", unit: "of 1" },
+  final_position_vx: { label: "final position, error", short: "final position", unit: "vx" },
+  final_position: { label: "final position, error", short: "final position", unit: "" },
   sliding_distance_relative: { label: "sliding distance, error", short: "sliding distance", unit: "of 1" },
 };
 
@@ -40,4 +48,4 @@ const ERROR_NAMES = {
 const UNIT_WORDS = { ns: "ns", s: "seconds", B: "bytes", vx: "voxels", "": "world units", "°": "degrees", "of 1": "relative" };
 
 // The error shown first: in world units, which compare across voxel sizes.
-const FIRST_ERRORS = ["phi_p99", "phi_p99_vx", "place_of_impact_vx"];
+const FIRST_ERRORS = ["phi_p99", "phi_p99_vx", "place_of_impact_vx", "place_of_impact"];
