@@ -36,7 +36,8 @@ std::vector<Vec3i> voxelsNearSurface(const DistanceField& field, double distance
 
 } // namespace
 
-std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx)
+std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx,
+                                     std::uint64_t seed)
 {
     const Interval phi{phiVx.lower * field.voxelSize(), phiVx.upper * field.voxelSize()};
     const std::vector<Vec3i> voxels = voxelsNearSurface(field, std::max(-phi.lower, phi.upper));
@@ -44,7 +45,7 @@ std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t cou
     if (voxels.empty()) refuse(needed);
     std::vector<Vec3d> points(count);
     forEachIndex(count, kPointsPerTask, [&](std::size_t i) {
-        CounterRandom random(kSeed, i);
+        CounterRandom random(seed, i);
         int tries = 0;
         do {
             if (++tries > kMostTries) refuse(needed);

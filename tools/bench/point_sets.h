@@ -9,8 +9,9 @@
 
 namespace vdbounce::bench {
 
-/// `count` points whose phi in voxels lies in `phiVx`, which holds 0, in random order.
-std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx);
+/// `count` points whose phi in voxels lies in `phiVx`, which holds 0, in random order. `seed` tells which.
+std::vector<Vec3d> pointsNearSurface(const DistanceField& field, std::size_t count, const Interval& phiVx,
+                                     std::uint64_t seed = 1);
 
 /// `count` points anywhere in the field's box, in random order.
 std::vector<Vec3d> pointsInBox(const DistanceField& field, std::size_t count);

@@ -9,7 +9,24 @@
 
 namespace vdbounce::bench {
 
-double TradeCost::ns() const { return median(nsPerParticleStep); }
+double TradeCase::ns() const { return median(cost.nsPerParticleStep); }
+
+double TradeCase::price() const
+{
+    constexpr double kMicrosecond = 1e-3; // in nanoseconds
+    return settings.dt ? ns() * kMicrosecond / *settings.dt : ns();
+}
+
+double TradeCase::error() const { return median(errors.front().values); }
+
+void TradeCase::addErrors(const std::vector<std::pair<std::string, double>>& found)
+{
+    errors.resize(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        errors[i].name = found[i].first;
+        errors[i].values.push_back(found[i].second);
+    }
+}
 
 std::string TradeCase::name() const
 {
@@ -26,9 +43,8 @@ std::string TradeCase::name() const
 void markPareto(std::vector<TradeCase>& cases)
 {
     const auto beats = [](const TradeCase& a, const TradeCase& b) {
-        const double costs[] = {a.cost.ns(), b.cost.ns()};
-        const double errors[] = {a.errors.front().second, b.errors.front().second};
-        return costs[0] <= costs[1] && errors[0] <= errors[1] && (costs[0] < costs[1] || errors[0] < errors[1]);
+        const bool better = a.price() < b.price() || a.error() < b.error();
+        return better && a.price() <= b.price() && a.error() <= b.error();
     };
     for (TradeCase& one : cases) {
         one.pareto = std::none_of(cases.begin(), cases.end(), [&](const TradeCase& other) {

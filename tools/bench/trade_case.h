@@ -23,13 +23,19 @@ struct TradeSettings {
     const char* normalName() const { return precomputed ? "precomputed" : nameOf(field.normal); }
 };
 
+/// Each of these of every repetition.
 struct TradeCost {
-    std::vector<double> nsPerParticleStep; ///< or per lookup, one thread; of each repetition
-    double buildSeconds = 0.0; ///< the field from the grid in memory, all threads, the fastest repetition; of scenes
-                               ///< all colliders from their files, once
-    std::size_t bytes = 0;     ///< of the field, with gradients that are stored; of scenes all level sets
+    std::vector<double> nsPerParticleStep; ///< or per lookup, one thread
+    std::vector<double> buildSeconds;      ///< the field from the grid in memory, all threads; of scenes all colliders
+                                           ///< from their files
+    std::size_t bytes = 0;                 ///< of the field, with gradients that are stored; of scenes all level sets
+};
 
-    double ns() const; ///< the median
+/// What one kind of error came to in each repetition, of which lookups and steps of known ways take other points and
+/// particles.
+struct TradeError {
+    std::string name; ///< as the JSON has it
+    std::vector<double> values;
 };
 
 /// One choice of settings, what it costs and how wrong it is.
@@ -37,12 +43,22 @@ struct TradeCase {
     std::string group; ///< what was measured on what: only cases of one group compare
     TradeSettings settings;
     TradeCost cost;
-    /// By the names that the JSON has; the first is the one by which cases are called Pareto-optimal.
-    std::vector<std::pair<std::string, double>> errors;
-    bool pareto = false; ///< no other of the group is as cheap and as exact and better in one
+    std::vector<TradeError> errors; ///< the first is the one by which cases are called Pareto-optimal
+    bool pareto = false;            ///< no other of the group is as cheap and as exact and better in one
 
     /// The settings in words.
     std::string name() const;
+
+    /// The median, nanoseconds a particle and step, or a lookup.
+    double ns() const;
+    /// What comparing by cost goes by: ns(), and of steps the microseconds for a particle and second of the scene, or
+    /// short steps would seem cheap.
+    double price() const;
+    /// The median of the first error.
+    double error() const;
+
+    /// Another repetition's errors, by name, in the same order as those before.
+    void addErrors(const std::vector<std::pair<std::string, double>>& found);
 };
 
 /// Finds out which are.

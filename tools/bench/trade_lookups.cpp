@@ -18,17 +18,21 @@ namespace {
 
 constexpr std::size_t kPointsPerTask = 1024;
 
+// Points of one repetition, and what is true there.
 struct Truth {
+    std::vector<Vec3d> points;
     std::vector<double> phi;
     std::vector<Vec3d> normal;
 };
 
-Truth truthAt(const TradeSubject& subject, const std::vector<Vec3d>& points)
+Truth truthOf(const TradeSubject& subject, std::vector<Vec3d> points)
 {
-    Truth truth{std::vector<double>(points.size()), std::vector<Vec3d>(points.size())};
-    forEachIndex(points.size(), kPointsPerTask, [&](std::size_t i) {
-        truth.phi[i] = subject.phi(points[i]);
-        truth.normal[i] = subject.normal(points[i]);
+    Truth truth{std::move(points), {}, {}};
+    truth.phi.resize(truth.points.size());
+    truth.normal.resize(truth.points.size());
+    forEachIndex(truth.points.size(), kPointsPerTask, [&](std::size_t i) {
+        truth.phi[i] = subject.phi(truth.points[i]);
+        truth.normal[i] = subject.normal(truth.points[i]);
     });
     return truth;
 }
@@ -102,23 +106,21 @@ struct LookedUp {
     std::optional<PrecomputedGradients> gradients;
 };
 
-TradeCase measure(const LevelSetGrid& grid, const TradeSettings& settings, const std::vector<Vec3d>& points,
-                  const Truth& truth, int repetitions)
+TradeCase measure(const LevelSetGrid& grid, const TradeSettings& settings, const std::vector<Truth>& truths)
 {
     TradeCase one;
     one.settings = settings;
-    std::vector<double> build;
-    std::vector<PointSample> samples(points.size());
-    for (int r = 0; r < repetitions; ++r) {
+    for (const Truth& truth : truths) {
         std::optional<LookedUp> body;
-        build.push_back(seconds([&] { body.emplace(grid, settings); }));
+        one.cost.buildSeconds.push_back(seconds([&] { body.emplace(grid, settings); }));
         one.settings.voxel = body->field.transform().voxelSize().maxCoeff();
         one.cost.bytes = body->memoryBytes();
+        std::vector<PointSample> samples(truth.points.size());
         const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
-        one.cost.nsPerParticleStep.push_back(nanosecondsAPoint(points.size(), [&] { body->lookUp(points, samples); }));
+        one.cost.nsPerParticleStep.push_back(
+            nanosecondsAPoint(samples.size(), [&] { body->lookUp(truth.points, samples); }));
+        one.addErrors(errorsOf(samples, truth, one.settings.voxel));
     }
-    one.cost.buildSeconds = *std::min_element(build.begin(), build.end());
-    one.errors = errorsOf(samples, truth, one.settings.voxel);
     return one;
 }
 
@@ -140,14 +142,17 @@ std::vector<TradeSettings> allSettings()
 
 std::vector<TradeCase> tradeLookups(const TradeSubject& subject, const TradeOptions& options, Progress& progress)
 {
-    const std::vector<Vec3d> points =
-        pointsNearSurface(DistanceField(subject.grids.front()), options.points, {-1.0, 1.0});
-    const Truth truth = truthAt(subject, points);
+    const DistanceField finest(subject.grids.front());
+    std::vector<Truth> truths;
+    for (int r = 0; r < options.repetitions; ++r) {
+        const auto seed = std::uint64_t(r) + 1;
+        truths.push_back(truthOf(subject, pointsNearSurface(finest, options.points, {-1.0, 1.0}, seed)));
+    }
     std::vector<TradeCase> cases;
     for (const LevelSetGrid& grid : subject.grids) {
         for (const TradeSettings& settings : allSettings()) {
             throwIfStopped(progress);
-            cases.push_back(measure(grid, settings, points, truth, options.repetitions));
+            cases.push_back(measure(grid, settings, truths));
             cases.back().group = subject.name + ", lookups";
         }
     }

@@ -15,10 +15,10 @@ struct TradeOptions {
     int repetitions = 3;
 };
 
-/// Every voxel size, lookup, normal and storage: phi and gradient of the same points near the surface, in random order.
-/// Beside them, with the usual lookup and storage, gradients that are stored instead of computed
-/// (PrecomputedGradients). Errors: of phi the mean, that of 99 % and the largest, in world units and in voxels; of the
-/// normal's angle the mean and the largest, where the true one is known. On one thread.
+/// Every voxel size, lookup, normal and storage: phi and gradient of the same points near the surface, in random order,
+/// others in each repetition. Beside them, with the usual lookup and storage, gradients that are stored instead of
+/// computed (PrecomputedGradients). Errors: of phi the mean, that of 99 % and the largest, in world units and in
+/// voxels; of the normal's angle the mean and the largest, where the true one is known. On one thread.
 std::vector<TradeCase> tradeLookups(const TradeSubject& subject, const TradeOptions& options, Progress& progress);
 
 } // namespace vdbounce::bench

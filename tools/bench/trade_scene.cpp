@@ -139,11 +139,11 @@ TradeCase measure(const Scene& scene, const SceneStart& start, const SceneOutcom
     TradeCase one;
     one.settings = {std::isfinite(voxel) ? voxel : 0.0, scene.accuracy, scene.scheme, scene.sweep, scene.dt};
     std::optional<SceneColliders> colliders;
-    one.cost.buildSeconds = seconds([&] {
+    one.cost.buildSeconds.push_back(seconds([&] {
         colliders.emplace(scene);
         colliders->onTheWayTo(0);
-    });
-    one.errors = errorsOf(outcomeOf(scene, *colliders, start, progress), finest, voxel);
+    }));
+    one.addErrors(errorsOf(outcomeOf(scene, *colliders, start, progress), finest, voxel));
     one.cost.bytes = colliders->memoryBytes();
     for (int r = 0; r < repetitions; ++r)
         one.cost.nsPerParticleStep.push_back(timeOf(scene, *colliders, start, progress));

@@ -70,14 +70,16 @@ PassReport runTimed(Particles& particles, const ColliderSet& colliders, const Tr
     return report;
 }
 
+using Errors = std::vector<std::pair<std::string, double>>;
+
 // Where the first impact was, against where it should have been.
-void addImpactErrors(const Shots& shots, const FieldPtr& field, TradeCase& one)
+Errors impactErrors(const Shots& shots, const FieldPtr& field, const TradeSettings& settings)
 {
     const ColliderSet sticky({{"ball", field, 0.0, 0.0, OnHit::Stick}});
-    PassOptions options = passOptions(one.settings);
+    PassOptions options = passOptions(settings);
     options.hits = true;
     Particles particles = shots.particles;
-    ParticlePass(particles, sticky, options).advance(stepsOf(one.settings));
+    ParticlePass(particles, sticky, options).advance(stepsOf(settings));
     double place = 0.0;
     double time = 0.0;
     std::size_t hits = 0;
@@ -87,34 +89,44 @@ void addImpactErrors(const Shots& shots, const FieldPtr& field, TradeCase& one)
         // What comes out on the other side and hits that has missed.
         if (hit.count == 0 || off > 0.5 * kBallRadius) continue;
         ++hits;
-        place += off / one.settings.voxel;
+        place += off / settings.voxel;
         time += std::abs(hit.time - shots.impacts[i].time);
     }
     const double count = std::max(1.0, double(hits));
-    one.errors = {{"place_of_impact_vx", place / count},
-                  {"time_of_impact_s", time / count},
-                  {"missed", 1.0 - double(hits) / double(particles.size())}};
+    return {{"place_of_impact_vx", place / count},
+            {"time_of_impact_s", time / count},
+            {"missed", 1.0 - double(hits) / double(particles.size())}};
 }
 
-// Bounces without loss.
-void addBounceErrors(const Shots& shots, const FieldPtr& field, int repetitions, TradeCase& one)
+// Bounces without loss, which are timed.
+Errors bounceErrors(const Shots& shots, const FieldPtr& field, const TradeSettings& settings, TradeCost& cost)
 {
     const ColliderSet elastic({{"ball", field, 1.0, 0.0}});
     const Vec3d gravity = StepOptions().gravity;
     const double moving = totalEnergy(shots.particles, {}, Vec3d::Zero());
-    for (int r = 0; r < repetitions; ++r) {
-        Particles particles = shots.particles;
-        const double before = totalEnergy(particles, {}, gravity);
-        const PassReport report = runTimed(particles, elastic, one.settings, one.cost);
-        if (r > 0) continue;
-        one.errors.emplace_back("penetration_vx", report.tally.maxPenetration / one.settings.voxel);
-        one.errors.emplace_back("energy_drift", std::abs(totalEnergy(particles, {}, gravity) - before) / moving);
-    }
+    Particles particles = shots.particles;
+    const double before = totalEnergy(particles, {}, gravity);
+    const PassReport report = runTimed(particles, elastic, settings, cost);
+    return {{"penetration_vx", report.tally.maxPenetration / settings.voxel},
+            {"energy_drift", std::abs(totalEnergy(particles, {}, gravity) - before) / moving}};
 }
 
-// `measure` fills in errors and costs.
-template <class Measure>
-std::vector<TradeCase> measureAll(const std::string& group, const ImplicitField& body,
+Errors slideErrors(const Slope& slope, const FieldPtr& field, const TradeSettings& settings, TradeCost& cost)
+{
+    const ColliderSet rough({{"slope", field, 0.0, slope.friction}});
+    Particles particles = slope.particles;
+    runTimed(particles, rough, settings, cost);
+    double error = 0.0;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+        const Vec3d way = particles.position[i] - slope.particles.position[i];
+        error += std::abs(way.dot(slope.down) / slope.way - 1.0);
+    }
+    return {{"sliding_distance_relative", error / double(particles.size())}};
+}
+
+// `measure(field, settings, cost, way)` tells the errors of one repetition with each of the ways, and adds its costs.
+template <class Way, class Measure>
+std::vector<TradeCase> measureAll(const std::string& group, const ImplicitField& body, const std::vector<Way>& ways,
                                   const SampleFieldOptions& sampling, Progress& progress, const Measure& measure)
 {
     std::vector<TradeCase> cases;
@@ -127,49 +139,55 @@ std::vector<TradeCase> measureAll(const std::string& group, const ImplicitField&
             TradeCase one;
             one.group = group;
             one.settings = settings;
-            FieldPtr field;
-            one.cost.buildSeconds =
-                seconds([&] { field = std::make_shared<const DistanceField>(grid, settings.field); });
-            one.cost.bytes = field->memoryBytes();
-            measure(field, one);
+            for (const Way& way : ways) {
+                FieldPtr field;
+                one.cost.buildSeconds.push_back(
+                    seconds([&] { field = std::make_shared<const DistanceField>(grid, settings.field); }));
+                one.cost.bytes = field->memoryBytes();
+                one.addErrors(measure(field, settings, one.cost, way));
+            }
             cases.push_back(std::move(one));
         }
     }
     return cases;
 }
 
+// Other particles in each repetition.
+template <class MakeWay> auto waysOf(const TradeOptions& options, const MakeWay& makeWay)
+{
+    std::vector<decltype(makeWay(options.shots, kSeconds, 1))> ways;
+    for (int r = 0; r < options.repetitions; ++r)
+        ways.push_back(makeWay(options.shots, kSeconds, std::uint64_t(r) + 1));
+    return ways;
+}
+
 } // namespace
 
 std::vector<TradeCase> tradeShots(const TradeOptions& options, Progress& progress)
 {
-    const Shots shots = shotsAtBall(options.shots, kSeconds);
     const auto ball = makeField(SphereShape{kBallCentre, kBallRadius});
-    return measureAll("shots at a ball, steps", *ball, {}, progress, [&](const FieldPtr& field, TradeCase& one) {
-        addImpactErrors(shots, field, one);
-        addBounceErrors(shots, field, options.repetitions, one);
-    });
+    return measureAll("shots at a ball, steps", *ball, waysOf(options, shotsAtBall), {}, progress,
+                      [](const FieldPtr& field, const TradeSettings& settings, TradeCost& cost, const Shots& shots) {
+                          Errors errors = impactErrors(shots, field, settings);
+                          const Errors more = bounceErrors(shots, field, settings, cost);
+                          errors.insert(errors.end(), more.begin(), more.end());
+                          return errors;
+                      });
 }
 
 std::vector<TradeCase> tradeSlides(const TradeOptions& options, Progress& progress)
 {
-    const Slope slope = slidingSlope(options.shots, kSeconds);
-    const auto plane = makeField(PlaneShape{Vec3d::Zero(), slope.normal});
+    const std::vector<Slope> slopes = waysOf(options, slidingSlope);
+    const auto plane = makeField(PlaneShape{Vec3d::Zero(), slopes.front().normal});
     SampleFieldOptions sampling;
-    sampling.within = slope.within;
-    return measureAll("sliding down a slope, steps", *plane, sampling, progress,
-                      [&](const FieldPtr& field, TradeCase& one) {
-                          const ColliderSet rough({{"slope", field, 0.0, slope.friction}});
-                          for (int r = 0; r < options.repetitions; ++r) {
-                              Particles particles = slope.particles;
-                              runTimed(particles, rough, one.settings, one.cost);
-                              if (r > 0) continue;
-                              double error = 0.0;
-                              for (std::size_t i = 0; i < particles.size(); ++i) {
-                                  const Vec3d way = particles.position[i] - slope.particles.position[i];
-                                  error += std::abs(way.dot(slope.down) / slope.way - 1.0);
-                              }
-                              one.errors = {{"sliding_distance_relative", error / double(particles.size())}};
-                          }
+    sampling.within = Box();
+    for (const Slope& slope : slopes) {
+        sampling.within->add(slope.within.min);
+        sampling.within->add(slope.within.max);
+    }
+    return measureAll("sliding down a slope, steps", *plane, slopes, sampling, progress,
+                      [](const FieldPtr& field, const TradeSettings& settings, TradeCost& cost, const Slope& slope) {
+                          return slideErrors(slope, field, settings, cost);
                       });
 }
 

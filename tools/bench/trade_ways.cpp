@@ -10,7 +10,6 @@
 namespace vdbounce::bench {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;
 constexpr double kParticleRadius = 0.02;
 constexpr double kSlopeDegrees = 20.0;
 constexpr double kSlopeFriction = 0.2;
@@ -45,11 +44,11 @@ Vec3d direction(CounterRandom& random)
 
 } // namespace
 
-Shots shotsAtBall(std::size_t count, double seconds)
+Shots shotsAtBall(std::size_t count, double seconds, std::uint64_t seed)
 {
     Shots shots;
     for (std::uint64_t tried = 0; shots.impacts.size() < count; ++tried) {
-        CounterRandom random(kSeed, tried);
+        CounterRandom random(seed, tried);
         const Vec3d from = kBallCentre + (1.5 + random.uniform()) * direction(random);
         const Vec3d aim = kBallCentre + 0.9 * random.uniform() * direction(random);
         const Vec3d velocity = std::pow(10.0, 0.5 + 1.5 * random.uniform()) * (aim - from).normalized();
@@ -64,7 +63,7 @@ Shots shotsAtBall(std::size_t count, double seconds)
     return shots;
 }
 
-Slope slidingSlope(std::size_t count, double seconds)
+Slope slidingSlope(std::size_t count, double seconds, std::uint64_t seed)
 {
     Slope slope;
     const double angle = kSlopeDegrees * 3.14159265358979323846 / 180.0;
@@ -77,7 +76,7 @@ Slope slidingSlope(std::size_t count, double seconds)
     slope.way = 0.5 * g * (std::sin(angle) - kSlopeFriction * std::cos(angle)) * seconds * seconds;
     const Vec3d across = slope.normal.cross(slope.down);
     for (std::size_t i = 0; i < count; ++i) {
-        CounterRandom random(kSeed, i);
+        CounterRandom random(seed, i);
         const double along = random.uniform();
         slope.particles.position.push_back(along * slope.down + random.uniform() * across +
                                            kParticleRadius * slope.normal);

@@ -21,12 +21,12 @@ struct Impact {
     Vec3d place; ///< of the surface, world
 };
 
-/// Particles with a radius on their way to the ball, and their first impacts, all within `seconds`.
+/// Particles with a radius on their way to the ball, and their first impacts, all within `seconds`. `seed` tells which.
 struct Shots {
     Particles particles;
     std::vector<Impact> impacts;
 };
-Shots shotsAtBall(std::size_t count, double seconds);
+Shots shotsAtBall(std::size_t count, double seconds, std::uint64_t seed);
 
 /// Particles at rest on a slope, and how far they slide in `seconds`.
 struct Slope {
@@ -37,6 +37,6 @@ struct Slope {
     Particles particles;
     Box within; ///< what they see of the slope
 };
-Slope slidingSlope(std::size_t count, double seconds);
+Slope slidingSlope(std::size_t count, double seconds, std::uint64_t seed);
 
 } // namespace vdbounce::bench

@@ -27,18 +27,29 @@ std::string toText(const bench::Case& result)
 
 } // namespace
 
-void reportCases(const CommonOptions& common, const bench::Cases& cases)
+Json casesJson(const bench::Cases& cases)
+{
+    Json json = Json::array();
+    for (const bench::Case& result : cases) json.push_back(toJson(result));
+    return json;
+}
+
+std::string casesText(const bench::Cases& cases)
 {
     std::string text;
     for (const bench::Case& result : cases) text += (text.empty() ? "" : "\n") + toText(result);
-    reportCases(common, cases, text);
+    return text;
+}
+
+void reportCases(const CommonOptions& common, const bench::Cases& cases)
+{
+    reportCases(common, cases, casesText(cases));
 }
 
 void reportCases(const CommonOptions& common, const bench::Cases& cases, const std::string& text)
 {
-    Json json = {{"machine", bench::machineText()}, {"cases", Json::array()}};
-    for (const bench::Case& result : cases) json["cases"].push_back(toJson(result));
-    report(common, json, json["machine"].get<std::string>() + "\n" + text);
+    const std::string machine = bench::machineText();
+    report(common, {{"machine", machine}, {"cases", casesJson(cases)}}, machine + "\n" + text);
 }
 
 void append(bench::Cases& all, const bench::Cases& cases) { all.insert(all.end(), cases.begin(), cases.end()); }

@@ -11,6 +11,10 @@
 
 namespace vdbounce::tool {
 
+Json casesJson(const bench::Cases& cases);
+/// A line a case.
+std::string casesText(const bench::Cases& cases);
+
 /// Prints a line a case.
 void reportCases(const CommonOptions& common, const bench::Cases& cases);
 

@@ -32,7 +32,8 @@ void addSlice(CLI::App& app, const CommonOptions& common);
 void addBench(CLI::App& app, const CommonOptions& common);
 void addBenchMesh(CLI::App& bench, const CommonOptions& common); // a kind of bench
 void addBenchMake(CLI::App& bench, const CommonOptions& common);
-void addBenchTrade(CLI::App& bench, const CommonOptions& common); // another
+void addBenchTrade(CLI::App& bench, const CommonOptions& common);
+void addBenchAll(CLI::App& bench, const CommonOptions& common); // another
 
 /// The number of threads that the user asked for; of all cores where they asked for none.
 int threadsUsed(const CommonOptions& common);

@@ -119,6 +119,7 @@ void addBench(CLI::App& app, const CommonOptions& common)
     addBenchMake(*verb, common);
     addBenchTrade(*verb, common);
     addBenchCollide(*verb, common);
+    addBenchAll(*verb, common);
 }
 
 } // namespace vdbounce::tool

@@ -7,6 +7,7 @@
 #include "progress_bar.h"
 #include "report.h"
 #include "report/report_page.h"
+#include "trade_report.h"
 
 #include "vdbounce/base/error.h"
 #include "vdbounce/io/mesh_file.h"
@@ -35,64 +36,6 @@ std::string commandOf(const BenchTradeArguments& arguments)
             std::to_string(options.shots);
     if (options.frames > 0) text += " --frames " + std::to_string(options.frames);
     return text + " --repetitions " + std::to_string(options.repetitions);
-}
-
-Json toJson(const bench::TradeSettings& settings)
-{
-    Json json = {{"voxel", nullptr},
-                 {"lookup", nameOf(settings.field.lookup)},
-                 {"normal", settings.normalName()},
-                 {"storage", nameOf(settings.field.storage)},
-                 {"scheme", nullptr},
-                 {"sweep", nullptr},
-                 {"dt", nullptr}};
-    if (settings.voxel > 0.0) json["voxel"] = settings.voxel;
-    if (settings.scheme) json["scheme"] = nameOf(*settings.scheme);
-    if (settings.sweep) json["sweep"] = nameOf(*settings.sweep);
-    if (settings.dt) json["dt"] = *settings.dt;
-    return json;
-}
-
-Json toJson(const bench::TradeCase& one)
-{
-    const std::vector<double>& times = one.cost.nsPerParticleStep;
-    Json errors = Json::object();
-    for (const auto& [name, value] : one.errors) errors[name] = value;
-    return {{"name", one.name()},
-            {"unit", "ns"},
-            {"value", one.cost.ns()},
-            {"group", one.group},
-            {"settings", toJson(one.settings)},
-            {"cost",
-             {{"ns_per_particle_step", one.cost.ns()},
-              {"build_seconds", one.cost.buildSeconds},
-              {"bytes", one.cost.bytes}}},
-            {"error", errors},
-            {"spread",
-             {{"ns_per_particle_step",
-               {*std::min_element(times.begin(), times.end()), *std::max_element(times.begin(), times.end())}}}},
-            {"pareto", one.pareto}};
-}
-
-// Those that nothing beats, the cheapest first.
-std::string textOf(std::vector<bench::TradeCase> cases)
-{
-    std::stable_sort(cases.begin(), cases.end(),
-                     [](const auto& a, const auto& b) { return a.cost.ns() < b.cost.ns(); });
-    std::vector<std::string> groups;
-    for (const bench::TradeCase& one : cases) {
-        if (std::find(groups.begin(), groups.end(), one.group) == groups.end()) groups.push_back(one.group);
-    }
-    std::string text =
-        "choices that no other beats in both cost and error; --json has all " + std::to_string(cases.size());
-    for (const std::string& group : groups) {
-        for (const bench::TradeCase& one : cases) {
-            if (one.group != group || !one.pareto) continue;
-            text += "\n" + one.name() + ": " + rounded(one.cost.ns()) + " ns, " + one.errors.front().first + " " +
-                    rounded(one.errors.front().second);
-        }
-    }
-    return text;
 }
 
 void append(std::vector<bench::TradeCase> some, std::vector<bench::TradeCase>& cases)
@@ -140,10 +83,9 @@ void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& co
         for (const std::string& file : arguments.files) append(tradeFile(file, arguments, progress), cases);
     }
     bench::markPareto(cases);
-    Json json = {{"machine", bench::machineText()}, {"command", commandOf(arguments)}, {"cases", Json::array()}};
-    for (const bench::TradeCase& one : cases) json["cases"].push_back(toJson(one));
+    Json json = {{"machine", bench::machineText()}, {"command", commandOf(arguments)}, {"cases", tradeJson(cases)}};
     if (!arguments.html.empty()) report::writeReportPage(json.dump(), commandOf(arguments), arguments.html);
-    report(common, json, json["machine"].get<std::string>() + "\n" + textOf(cases));
+    report(common, json, json["machine"].get<std::string>() + "\n" + tradeText(cases));
 }
 
 } // namespace

@@ -21,6 +21,7 @@ function numberText(value) {
 const SCALED_UNITS = {
   B: [[1e9, "GB"], [1e6, "MB"], [1e3, "kB"], [1, "B"]],
   s: [[1, "s"], [1e-3, "ms"], [1e-6, "µs"], [1e-9, "ns"]],
+  "µs": [[1e6, "s"], [1e3, "ms"], [1, "µs"]],
   ns: [[1e9, "s"], [1e6, "ms"], [1e3, "µs"], [1, "ns"]],
 };
 

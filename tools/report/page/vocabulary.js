@@ -15,6 +15,7 @@ const SETTING_NAMES = {
 const SETTING_UNITS = { dt: "s" };
 
 const COST_NAMES = {
+  us_per_particle_second: { label: "time per particle and second of the scene", short: "time for a second", unit: "µs" },
   ns_per_particle_step: { label: "time per particle and step", short: "time", unit: "ns" },
   build_seconds: { label: "time to build the field", short: "build time", unit: "s" },
   bytes: { label: "memory of the field", short: "memory", unit: "B" },
@@ -45,7 +46,7 @@ const ERROR_NAMES = {
 };
 
 // What units are called where there is room for words.
-const UNIT_WORDS = { ns: "ns", s: "seconds", B: "bytes", vx: "voxels", "": "world units", "°": "degrees", "of 1": "relative" };
+const UNIT_WORDS = { ns: "ns", "µs": "µs", s: "seconds", B: "bytes", vx: "voxels", "": "world units", "°": "degrees", "of 1": "relative" };
 
 // The error shown first: in world units, which compare across voxel sizes.
 const FIRST_ERRORS = ["phi_p99", "phi_p99_vx", "place_of_impact_vx", "place_of_impact"];

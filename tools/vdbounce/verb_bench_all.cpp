@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/bench_blobs.h"
+#include "bench/bench_collide.h"
+#include "bench/bench_csg.h"
+#include "bench/bench_field.h"
+#include "bench/bench_mesh.h"
+#include "bench/bench_redistance.h"
+#include "bench/bench_shapes.h"
+#include "bench/machine.h"
+#include "bench/trade_steps.h"
+#include "bench_report.h"
+#include "progress_bar.h"
+#include "trade_report.h"
+
+#include "vdbounce/io/mesh_file.h"
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+namespace vdbounce::tool {
+namespace {
+
+// The mesh that comes with the sources, and one that ./dev data fetches.
+constexpr const char* kBunny = "data/bunny.obj";
+constexpr const char* kDragon = "data/fetched/dragon_vrip.ply";
+
+// What each kind measures by itself, less of it, so that all together take minutes.
+constexpr std::uint64_t kPoints = 2'000'000;
+constexpr std::uint64_t kParticles = 1'000'000;
+constexpr int kBunnyDim = 512;
+constexpr int kDragonDim = 512;
+
+struct Kind {
+    const char* name;
+    std::function<bench::Cases(int repetitions, Progress&)> measure;
+};
+
+bench::Cases benchMeshes(int repetitions, Progress& progress)
+{
+    bench::Cases cases;
+    const auto add = [&](const char* file, int dim) {
+        if (!std::filesystem::exists(file)) return;
+        const std::string name = std::filesystem::path(file).filename().string();
+        append(cases, bench::casesOf(bench::benchMesh(name, readMesh(file), {dim, 3.0, repetitions}, progress)));
+    };
+    add(kBunny, kBunnyDim);
+    add(kDragon, kDragonDim);
+    return cases;
+}
+
+bench::Cases benchMaking(int repetitions, Progress& progress)
+{
+    const bench::MakeBenchOptions options{repetitions};
+    bench::Cases cases = bench::benchShapes(options, progress);
+    append(cases, bench::benchCsg(options, progress));
+    append(cases, bench::benchBlobs(options, progress));
+    append(cases, bench::benchRedistance(options, progress));
+    return cases;
+}
+
+bench::Cases benchCollisions(int repetitions, Progress& progress)
+{
+    bench::CollideBenchOptions options;
+    options.repetitions = repetitions;
+    options.particles = kParticles;
+    bench::Cases cases = bench::benchColumn(options, progress);
+    if (std::filesystem::exists(kBunny))
+        append(cases, bench::benchMeshBox("bunny", readMesh(kBunny), options, progress));
+    return cases;
+}
+
+bench::Cases benchLookups(int repetitions, Progress& progress)
+{
+    bench::FieldBenchOptions options;
+    options.repetitions = repetitions;
+    options.points = {kPoints};
+    return bench::benchField(bench::sphereSubject(), options, progress);
+}
+
+const Kind kKinds[] = {
+    {"field", benchLookups}, {"mesh", benchMeshes}, {"make", benchMaking}, {"collide", benchCollisions}};
+
+std::vector<bench::TradeCase> trade(int repetitions, Progress& progress)
+{
+    bench::TradeOptions options;
+    options.repetitions = repetitions;
+    std::vector<bench::TradeCase> cases;
+    const auto add = [&](std::vector<bench::TradeCase> some) {
+        std::move(some.begin(), some.end(), std::back_inserter(cases));
+    };
+    for (const bench::TradeSubject& subject : bench::analyticSubjects(progress))
+        add(bench::tradeLookups(subject, options, progress));
+    add(bench::tradeShots(options, progress));
+    add(bench::tradeSlides(options, progress));
+    bench::markPareto(cases);
+    return cases;
+}
+
+void runBenchAll(int repetitions, const CommonOptions& common)
+{
+    Json cases = Json::array();
+    std::string text;
+    const auto add = [&](const char* kind, const Json& some, const std::string& words) {
+        for (Json one : some) {
+            one["kind"] = kind;
+            cases.push_back(one);
+        }
+        text += "\n\n" + std::string(kind) + "\n" + words;
+    };
+    for (const Kind& kind : kKinds) {
+        ProgressBar progress(common, std::string("bench ") + kind.name);
+        const bench::Cases found = kind.measure(repetitions, progress);
+        add(kind.name, casesJson(found), casesText(found));
+    }
+    ProgressBar progress(common, "bench trade");
+    const std::vector<bench::TradeCase> found = trade(repetitions, progress);
+    add("trade", tradeJson(found), tradeText(found));
+    const std::string machine = bench::machineText();
+    report(common, {{"machine", machine}, {"cases", cases}}, machine + text);
+}
+
+} // namespace
+
+void addBenchAll(CLI::App& bench, const CommonOptions& common)
+{
+    auto repetitions = std::make_shared<int>(1);
+    auto* all = bench.add_subcommand("all", "Some of everything, in under ten minutes on two cores");
+    addRepetitions(*all, *repetitions);
+    all->footer("Example:\n  vdbounce bench all --json");
+    all->callback([repetitions, &common] { runWith(common, [&] { runBenchAll(*repetitions, common); }); });
+}
+
+} // namespace vdbounce::tool
