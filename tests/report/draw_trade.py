@@ -18,10 +18,13 @@ SVG = "{http://www.w3.org/2000/svg}"
 def case(group, cost, error, pareto, **settings):
     """As bench trade writes them, as far as it matters."""
     key = "place_of_impact_vx" if "steps" in group else "phi_p99"
+    costs = {"ns_per_particle_step": cost}
     settings = {"voxel": 0.1, "lookup": "trilinear", "normal": "central", "storage": "float", "scheme": None,
                 "sweep": None, "dt": None, **settings}
+    if settings["dt"]:
+        costs["us_per_particle_second"] = 1e-3 * cost / settings["dt"]
     return {"name": ", ".join(map(str, [group, *settings.values()])), "unit": "ns", "value": cost, "group": group,
-            "settings": settings, "cost": {"ns_per_particle_step": cost}, "error": {key: error, "another": 7.0},
+            "settings": settings, "cost": costs, "error": {key: error, "another": 7.0},
             "pareto": pareto}
 
 

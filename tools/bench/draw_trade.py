@@ -22,13 +22,16 @@ def fail(code, text):
 
 def read_case(case):
     """What the picture needs of a case; raises ValueError, KeyError and the like where that is not there."""
-    cost = case["cost"]["ns_per_particle_step"]
+    # Steps compare by what a second of the scene takes, or short ones would seem cheap.
+    steps = "us_per_particle_second" in case["cost"]
+    cost = case["cost"]["us_per_particle_second" if steps else "ns_per_particle_step"]
     key, error = next(iter(case["error"].items()))
     settings, best = case["settings"], case["pareto"]
     if not 0 < cost < math.inf or not isinstance(settings, dict) or not isinstance(best, bool):
         raise ValueError("no cost, settings or pareto")
     known = error is not None and math.isfinite(error)  # JSON has null for what is no number
     return {"name": str(case["name"]), "group": str(case["group"]), "settings": settings, "best": best, "cost": cost,
+            "unit": "µs" if steps else "ns",
             "key": key, "error": abs(error) if known else None}
 
 

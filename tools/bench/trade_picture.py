@@ -49,7 +49,7 @@ def marker(x, y, kind, best, case=None):
     inside = ""
     if case:
         look += ' class="case"'
-        inside = f"<title>{escaped(case['name'])}: {plain(case['cost'])} ns, error {plain(case['error'])}</title>"
+        inside = f"<title>{escaped(case['name'])}: {plain(case['cost'])} {case['unit']}, error {plain(case['error'])}</title>"
     if SHAPES[kind] == CIRCLE:
         return f'<circle cx="{px(x)}" cy="{px(y)}" r="{radius}" {look}>{inside}</circle>'
     points = " ".join(f"{px(x + radius * a)},{px(y + radius * b)}" for a, b in SHAPES[kind])
@@ -146,7 +146,7 @@ def draw_table(cases, best, missing, y):
     """What the numbers stand for, in the settings that differ within the group; and where it ends."""
     words = lambda value: "-" if value is None else f"{value:g}" if isinstance(value, (int, float)) else str(value)
     keys = [k for k in cases[0]["settings"] if len({words(c["settings"].get(k)) for c in cases}) > 1]
-    rows = [["ns", "error"] + ["dt (s)" if key == "dt" else key for key in keys]]
+    rows = [[cases[0]["unit"], "error"] + ["dt (s)" if key == "dt" else key for key in keys]]
     rows += [[plain(c["cost"]), plain(c["error"])] + [words(c["settings"].get(key)) for key in keys] for c in best]
     faint = [True] + hardly_better(best)
     widths = [7.3 * max(map(len, column)) for column in zip(*rows)]
@@ -178,9 +178,7 @@ def draw(group, origin, cases, missing):
     best = sorted((c for c in cases if c["best"]), key=lambda c: (c["cost"], -c["error"], c["name"]))
     key = cases[0]["key"]
     error = f"{ERRORS.get(key, key.replace('_', ' '))} ({UNITS.get(key.rpartition('_')[2], 'relative')})"
-    cost = "ns for a lookup" if told == "lookup" else "ns for a particle and step"
-    if len({c["settings"].get("dt") for c in cases}) > 1:
-        cost += "; a smaller dt takes more steps"
+    cost = "ns for a lookup" if cases[0]["unit"] == "ns" else "µs for a particle and second of the scene"
     parts, top = draw_header(group, origin, kinds, error)
     parts += draw_axes(cases, top, cost)
     parts += draw_cases(best, [c for c in cases if not c["best"]], (LEFT, top, RIGHT, top + HEIGHT))
