@@ -124,7 +124,7 @@ void runBenchAll(int repetitions, const CommonOptions& common)
 
 void addBenchAll(CLI::App& bench, const CommonOptions& common)
 {
-    auto repetitions = std::make_shared<int>(1);
+    auto repetitions = std::make_shared<int>(3);
     auto* all = bench.add_subcommand("all", "Some of everything, in under ten minutes on two cores");
     addRepetitions(*all, *repetitions);
     all->footer("Example:\n  vdbounce bench all --json");
