@@ -109,6 +109,22 @@ TEST_CASE("the order of what voxels cannot tell is two on smooth surfaces and le
     CHECK(box >= 1.0);
 }
 
+TEST_CASE("voxels of the size that is asked for reach the error")
+{
+    const TriangleMesh mesh = readMesh(sourcePath("data/bunny.obj"));
+    MeshToLevelSetOptions options;
+    options.voxelSize = boundingBox(mesh).size().maxCoeff() / 60.0;
+    const LookupErrors coarse = measureLookupErrors(meshToLevelSet(mesh, options).grid, 1);
+    for (const double share : {0.7, 0.3}) {
+        const double wanted = share * coarse.reachable();
+        options.voxelSize = coarse.voxelFor(wanted);
+        const LookupErrors fine = measureLookupErrors(meshToLevelSet(mesh, options).grid, 1);
+        INFO("voxel " << coarse.voxel << " to " << options.voxelSize << " for " << wanted);
+        CHECK(fine.reachable() <= wanted);
+        CHECK(fine.reachable() > 0.5 * wanted);
+    }
+}
+
 TEST_CASE("errors of lookups have the same bits for any number of threads")
 {
     const LevelSetGrid grid = sampled(TorusShape{Vec3d(0.1, 0, 0), Vec3d::UnitY(), 0.7, 0.2}, 0.02);
