@@ -192,8 +192,9 @@ RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& p
     if (!plan) return Run(scene, options, progress).run();
     Scene planned = scene;
     planned.accuracy = plan->chosen;
-    RunReport report = Run(planned, options, progress).run();
+    // Before hours of work rather than after them: it needs the files.
     const double error = measuredError(planned, options.firstFrame);
+    RunReport report = Run(planned, options, progress).run();
     report.accuracy = RunAccuracy{plan->chosen, plan->voxel > 0.0 ? error / plan->voxel : 0.0};
     return report;
 }
