@@ -77,6 +77,84 @@ def check_reader(page, folder):
     assert "hidden" not in tip.split(">")[0]
 
 
+def chart_rows(document):
+    """Name, peer, standing and ratio of each row of the chart, and how far right its dot is, per cent."""
+    rows, name = [], None
+    for row in document.split('<div class="ratio-row ')[2:]:
+        standing = row.split('"')[0].split()[0]
+        label = re.match(r'[^>]*><div class="ratio-label">(?:<div>(.*?)</div>)?<div class="peer">(.*?)</div>', row)
+        name = label.group(1) or name
+        place = float(re.search(r'class="dot \w+" style="left: ([\d.]+)%', row).group(1))
+        rows.append((name, label.group(2), standing, re.search(r'"ratio-value">(.*?)</div>', row).group(1), place))
+    return rows
+
+
+def check_ratios(open_it, cases, alone):
+    group = "group=collisions%20against%20others"
+    counts = lambda document: [attribute(document, name) for name in ("points-shown", "points-total", "points-optimal")]
+    html = lambda text: text.replace("<", "&lt;").replace(">", "&gt;")
+    document = open_it(group)
+    compared = [case for case in cases if case.get("ratio") is not None]
+    rows = chart_rows(document)
+    assert counts(document) == [len(cases), len(cases), 0], counts(document)
+    assert [row[:2] for row in rows] == [(case["name"], html(case["peer"]["name"])) for case in compared]
+    assert document.count("<tr") == len(cases) + 1 and "<canvas" not in document
+    one = float(re.search(r'class="one" style="left: ([\d.]+)%', document).group(1))
+    for (_, _, standing, text, place), case in zip(rows, compared):
+        ratio = case["ratio"]
+        assert standing == ("alike" if abs(ratio - 1) <= 0.01 else "ahead" if ratio > 1 else "behind"), case
+        assert (place > one) == (ratio > 1) and 0 < place < 100, (place, one, case)
+        assert "·" in text or abs(float(text) / ratio - 1) < 0.006, (text, case)
+    # Words, peers, order; in the table too.
+    document = open_it(f"{group}&find=nano%20THREADS&sort=-ratio")
+    found = [case for case in compared if "threads" in case["name"] and "Nano" in case["peer"]["name"]]
+    found.sort(key=lambda case: -case["ratio"])
+    assert [row[0] for row in chart_rows(document)] == [case["name"] for case in found]
+    assert attribute(document, "points-shown") == len(found) + 1, "what has no ratio is in the table"
+    assert 'aria-sort="descending"' in document
+    document = open_it(f"{group}&peer=none&standing=none")
+    assert chart_rows(document) == [] and counts(document)[0] == 2
+    document = open_it(f"{group}&peer=gravity%2C%20%3Cb%3Enothing%3C%2Fb%3E%20else&standing=behind")
+    assert [row[0] for row in chart_rows(document)] == ["box 4, 1 thread", "box 4, 2 threads"]
+    assert "No case is left" in open_it(f"{group}&find=psychic")
+    document = open_it("group=all%20cases%20against%20others")
+    assert chart_rows(document) == [] and counts(document) == [alone, alone, 0]
+    assert "88 kB" in document and "3670 triangles" in document
+
+
+# What a reader does: look for a word, keep one peer, sort by name, point at the first row of the chart.
+SEEKER = """<script>
+location.hash = "#group=collisions%20against%20others";
+setTimeout(() => {
+  const find = document.getElementById("find");
+  find.focus();
+  find.value = "box threads";
+  find.dispatchEvent(new InputEvent("input", { bubbles: true }));
+  document.body.dataset.focus = document.activeElement.id;
+  [...document.querySelectorAll("#filters button")].find((button) => button.textContent.startsWith("Nano")).click();
+  document.querySelector('[data-key="ratio"]').click();
+  document.querySelectorAll(".ratio-row")[1].dispatchEvent(new PointerEvent("pointerenter"));
+  document.body.dataset.address = location.hash;
+}, 100);
+</script></body>"""
+
+
+def check_seeker(page, folder):
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    with open(f"{folder}/seeker.html", "w", encoding="utf-8") as file:
+        file.write(text.replace("</body>", SEEKER))
+    document = open_page(f"{folder}/seeker.html", folder)
+    assert 'data-focus="find"' in document
+    assert "&amp;find=box%20threads&amp;sort=ratio&amp;peer=NanoVDB" in document, re.search(r'data-address="[^"]*"', document)
+    ratios = [float(row[3].split("·")[0]) for row in chart_rows(document)]
+    assert ratios == [0.05, 0.8, 1, 1.5, 14.2, 200000], ratios
+    tip = re.search(r'<div id="tip"[^>]*>.*?</dl></div>', document).group(0)
+    for words in ("box 6, 2 threads", "<dd>18 ns/particle step</dd>", "<dd>0.05</dd>", "NanoVDB's example", "behind"):
+        assert words in tip, (words, tip)
+    assert "hidden" not in tip.split(">")[0]
+
+
 def main():
     program, folder = sys.argv[1], os.path.abspath(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
@@ -86,7 +164,7 @@ def main():
     open_it = lambda address: open_page(page, folder, address)
     groups = {}
     for case in json.load(open(run, encoding="utf-8"))["cases"]:
-        groups.setdefault(case["group"], []).append(case)
+        groups.setdefault(case.get("group", case.get("kind")), []).append(case)
     having = lambda name, **wanted: [
         c for c in groups[name] if all(c["settings"].get(key) in values for key, values in wanted.items())]
 
@@ -106,6 +184,8 @@ def main():
     check_view(open_it, "group=cube&x=money&lookup=psychic&100%", groups["sphere, lookups"], 90, "ns_per_particle_step",
                "phi_p99")
     check_reader(page, folder)
+    check_ratios(open_it, groups["collide"], len(groups[None]))
+    check_seeker(page, folder)
 
 
 main()

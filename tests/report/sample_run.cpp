@@ -80,6 +80,32 @@ Json stepCase(double voxel, const Choice& scheme, const Choice& sweep, double dt
     return one;
 }
 
+Json ratioCase(const std::string& name, double value, const char* peer, double ratio)
+{
+    return {{"name", name},   {"unit", "ns/particle step"},
+            {"value", value}, {"peer", {{"name", peer}, {"value", value * ratio}}},
+            {"ratio", ratio}, {"kind", "collide"}};
+}
+
+// Far ahead, ahead, alike, behind, and two that have no ratio.
+void addRatios(Json& cases)
+{
+    const double ratios[] = {2e5, 14.2, 1.5, 1.004, 0.8, 0.05};
+    for (const char* threads : {"1 thread", "2 threads"}) {
+        int i = 0;
+        for (const double ratio : ratios) {
+            const std::string name = "box " + std::to_string(++i) + ", " + threads;
+            cases.push_back(ratioCase(name, 3.0 * i, "NanoVDB's example", ratio));
+            if (i < 5) cases.push_back(ratioCase(name, 3.0 * i, "gravity, <b>nothing</b> else", 0.9 * ratio));
+        }
+        cases.push_back(ratioCase("box of nothing, " + std::string(threads), 0.0, "NanoVDB's example", 1.0));
+        cases.back()["ratio"] = nullptr;
+        cases.push_back({{"name", "steps with contact"}, {"unit", "%"}, {"value", 4.5}, {"kind", "collide"}});
+    }
+    cases.push_back({{"name", "triangles"}, {"unit", "triangles"}, {"value", 3674.0}});
+    cases.push_back({{"name", "mesh"}, {"unit", "MB"}, {"value", 0.088}});
+}
+
 } // namespace
 
 std::string sampleRun()
@@ -97,6 +123,7 @@ std::string sampleRun()
             for (const Choice& sweep : kSweeps)
                 for (const double dt : {0.002, 0.004, 0.008, 0.016, 0.032})
                     cases.push_back(stepCase(voxel, scheme, sweep, dt, noise));
+    addRatios(cases);
     cases[0]["name"] = "</script><script>throw 1</script><!-- <script>";
     const Json run = {{"machine", "A processor <b>of & many</b> names, 2 threads, AVX3"}, {"cases", cases}};
     return run.dump();

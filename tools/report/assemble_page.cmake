@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# Puts page.html, its style, its scripts and uPlot together into OUTPUT, a C++ source with the parts of page_parts.h.
+# Puts page.html, its styles, its scripts and uPlot together into OUTPUT, a C++ source with the parts of page_parts.h.
 # usage: cmake -D PAGE=FOLDER -D "SCRIPTS=FILE;FILE..." -D UPLOT=FOLDER -D OUTPUT=FILE -P assemble_page.cmake
 cmake_minimum_required(VERSION 3.25)
 
-file(READ ${PAGE}/page.css page_css)
+set(page_css "")
+foreach(style page ratio_chart)
+  file(READ ${PAGE}/${style}.css text)
+  string(APPEND page_css "${text}\n")
+endforeach()
 file(READ ${UPLOT}/LICENSE uplot_license)
 file(READ ${UPLOT}/dist/uPlot.min.css uplot_css)
 file(READ ${UPLOT}/dist/uPlot.iife.min.js uplot_js)

@@ -4,7 +4,7 @@
 #include <string>
 
 /// @file
-/// The page that shows what a measurement of costs and errors found; page/page.html is its frame.
+/// The page that shows what a measurement found, costs and errors or comparisons; page/page.html is its frame.
 
 namespace vdbounce::report {
 
@@ -13,7 +13,7 @@ bool hasReportPage();
 
 /// Writes one HTML file that shows the run: it holds all that it needs and loads nothing, so that it opens from disk.
 ///
-/// @param json     the run, as `vdbounce bench trade --json` prints it; valid JSON in UTF-8. Whatever its strings hold
+/// @param json     the run, as `vdbounce bench --json` prints it; valid JSON in UTF-8. Whatever its strings hold
 ///                 is shown as text
 /// @param command  the command line that repeats the run, shown on top
 /// @param path     the file, which appears whole or not at all

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shown cases as a table, sorted by the column whose head was clicked last.
 
-function tableColumns(view) {
-  const settings = view.varying.map((key) => ({
-    key,
-    head: settingName(key),
-    isText: settingValues(view.cases, key).some((value) => typeof value === "string"),
-    read: (one) => (one.settings || {})[key] ?? null,
-    text: (value) => settingWords(key, value),
-  }));
-  const name = { key: "name", head: "case", isText: true, read: (one) => one.name, text: String };
-  // What is on the axes comes first, where it needs no scrolling.
-  const onAxis = [view.x, view.y];
-  const others = [...view.costs, ...view.errors].filter((each) => !onAxis.includes(each));
-  const measured = [...onAxis, ...others].map((each) => ({
-    key: each.key,
-    head: each.short,
-    // Units of handy size differ from cell to cell and stand there.
-    unit: each.isScaled ? null : UNIT_WORDS[each.unit],
-    isChosen: onAxis.includes(each),
-    read: each.read,
-    text: each.isScaled ? each.text : numberText,
-  }));
-  return [...(settings.length > 0 ? settings : [name]), ...measured];
+const NO_MARK = { name: null, sign: "", title: null };
+
+// Sets `sort` and `ordered`. Without a column to sort by the run's own order stays.
+function orderView(view, wanted) {
+  const text = wanted || view.firstSort || "";
+  const column = view.columns.find((each) => each.key === text.replace(/^-/, ""));
+  const descending = text.startsWith("-");
+  view.sort = { key: column ? column.key : null, descending };
+  view.ordered = column ? sortedPoints(view.points, column, descending) : view.points;
 }
 
 // What a case lacks comes last either way.
@@ -49,21 +36,20 @@ function cellClass(column) {
   return [column.isText ? "text" : "", column.isChosen ? "chosen" : ""].join(" ").trim() || null;
 }
 
-function bodyRow(point, columns, onRow) {
-  const cells = columns.map((column) => {
+function bodyRow(point, view, onRow) {
+  const cells = view.columns.map((column) => {
     const value = column.read(point.case);
-    return element("td", { class: cellClass(column) }, value === null ? "–" : column.text(value));
+    return element("td", { class: cellClass(column) }, value === null ? "–" : column.text(value, point.case));
   });
-  const mark = element("td", { class: "mark" }, point.optimal ? "●" : "");
-  if (point.optimal) mark.title = "no other shown is both cheaper and more exact";
+  const mark = view.markOf(point);
   return element("tr", {
-    class: point.optimal ? "optimal" : null,
+    class: mark.name,
     tabindex: "-1",
     onpointerenter: () => onRow(point),
     onfocus: () => onRow(point),
     onpointerleave: () => onRow(null),
     onblur: () => onRow(null),
-  }, mark, ...cells);
+  }, element("td", { class: "mark", title: mark.title }, mark.sign), ...cells);
 }
 
 // The rows are one stop of the Tab key; the arrow keys go on from there.
@@ -79,15 +65,10 @@ function followArrows(body) {
 }
 
 function showTable(host, view, change, onRow) {
-  const columns = tableColumns(view);
-  const wanted = (view.sort || view.x.key).replace(/^-/, "");
-  const column = columns.find((each) => each.key === wanted) || columns[0];
-  const sort = { key: column.key, descending: (view.sort || "").startsWith("-") };
-  const body = element("tbody", {},
-    ...sortedPoints(view.points, column, sort.descending).map((point) => bodyRow(point, columns, onRow)));
+  const body = element("tbody", {}, ...view.ordered.map((point) => bodyRow(point, view, onRow)));
   followArrows(body);
   const focused = host.contains(document.activeElement) ? document.activeElement.dataset.key : null;
-  host.replaceChildren(element("table", {},
-    element("thead", {}, element("tr", {}, element("td"), ...columns.map((each) => headCell(each, sort, change)))), body));
+  const heads = view.columns.map((each) => headCell(each, view.sort, change));
+  host.replaceChildren(element("table", { class: view.kind }, element("thead", {}, element("tr", {}, element("td"), ...heads)), body));
   if (focused) host.querySelector(`[data-key="${CSS.escape(focused)}"]`).focus();
 }

@@ -65,13 +65,18 @@ class Chart {
   }
 
   show(view) {
-    if (this.plot) this.plot.destroy();
+    this.hide();
     this.view = view;
     this.zoom = null;
     this.marked = null;
     const byCost = [...view.points].sort((a, b) => a.px - b.px);
     this.plot = new uPlot(this.options(), [byCost.map((p) => p.px), byCost.map((p) => p.py)], this.host);
     this.listen(this.plot.over);
+  }
+
+  hide() {
+    if (this.plot) this.plot.destroy();
+    this.plot = null;
   }
 
   options() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choices of group and axes, and a row of toggles for each setting that varies.
+// The choices of group and axes, the words looked for, and a row of toggles for each setting that varies.
 
 function fillSelect(select, options, chosen) {
   select.replaceChildren(
@@ -54,5 +54,10 @@ function showControls(groups, group, state, change) {
   select("group", groups.map(({ name }) => ({ value: name, text: name })), state.group);
   select("x", measureOptions(group.costs), state.x);
   select("y", measureOptions(group.errors), state.y);
+  const find = document.getElementById("find");
+  if (find.value !== (state.find || "")) find.value = state.find || "";
+  find.oninput = () => change({ find: find.value });
+  // Return would load the page anew.
+  find.form.onsubmit = (event) => event.preventDefault();
   showFilters(document.getElementById("filters"), group, state, change);
 }

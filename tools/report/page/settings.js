@@ -21,7 +21,7 @@ function settingKeys(cases) {
   return [...keys];
 }
 
-// Values in rising order where they are numbers, else as the run has them.
+// Values in rising order where they are numbers, else as the run has them, what is missing last.
 function settingValues(cases, key) {
   const values = new Map();
   for (const one of cases) {
@@ -30,7 +30,7 @@ function settingValues(cases, key) {
   }
   const found = [...values.values()];
   const areNumbers = found.every((value) => value === null || typeof value === "number");
-  return areNumbers ? found.sort((a, b) => a - b) : found;
+  return found.sort(areNumbers ? (a, b) => a - b : (a, b) => (a === null) - (b === null));
 }
 
 // Only what varies is worth a filter, a column, a word in a label.

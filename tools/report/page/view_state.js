@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the reader has chosen, as the part of the address after '#', so that a view can be kept and passed on:
 //   #group=sphere%2C%20lookups&x=bytes&y=phi_max&lookup=cubic,trilinear&sort=-bytes
+//   #group=collisions&find=bunny&peer=none
 // Every key that is none of the page's own is a setting with the values that are kept.
 
-const OWN_KEYS = ["group", "x", "y", "sort"];
+const OWN_KEYS = ["group", "x", "y", "find", "sort"];
 
 function stateFromHash(hash) {
   const state = { kept: new Map() };
@@ -52,6 +53,7 @@ function completeState(state, groups) {
     group: group.name,
     x: has(group.costs, state.x) ? state.x : (group.costs[0] || {}).key,
     y: has(group.errors, state.y) ? state.y : firstError(group.errors),
+    find: group.kind === "ratio" ? state.find : null,
     sort: state.sort,
     kept,
   };

@@ -14,6 +14,14 @@ const SETTING_NAMES = {
 // In the unit that a setting's values are read with; other settings are words.
 const SETTING_UNITS = { dt: "s" };
 
+// The kinds of bench whose cases have no settings.
+const KIND_NAMES = {
+  field: "lookups against others",
+  mesh: "level sets of meshes against others",
+  make: "level sets made otherwise against others",
+  collide: "collisions against others",
+};
+
 const COST_NAMES = {
   us_per_particle_second: { label: "time per particle and second of the scene", short: "time for a second", unit: "µs" },
   ns_per_particle_step: { label: "time per particle and step", short: "time", unit: "ns" },
