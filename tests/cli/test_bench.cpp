@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/report_page.h"
+#include "report/run_in_page.h"
 #include "support/run_tool.h"
+#include "support/temporary_folder.h"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -7,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+using namespace vdbounce;
 using namespace vdbounce::test;
 using Json = nlohmann::json;
 
@@ -76,4 +80,61 @@ TEST_CASE("bench mesh refuses what it cannot measure")
     CHECK(runTool("bench mesh missing.obj").exitCode == 3);
     CHECK(runTool("bench mesh " + sourcePath("data/bunny.obj") + " --dim 0").exitCode == 2);
     CHECK(runTool("bench mesh " + sourcePath("data/bunny.obj") + " --band 0.5").exitCode == 2);
+}
+
+TEST_CASE("bench writes a page that holds the run, or says that the build has none")
+{
+    const TemporaryFolder folder;
+    const std::string ball = folder / "ball.vdb";
+    const std::string page = folder / "report.html";
+    REQUIRE(runTool("make sphere --center 0,0,0 --radius 1 --voxel 0.2 -o " + ball).exitCode == 0);
+    const ToolRun run = runTool("bench field " + ball + " --points 1000 --repetitions 1 --json --html " + page);
+    INFO(run.err);
+    if (!report::hasReportPage()) {
+        CHECK(run.exitCode == 1);
+        CHECK_THAT(run.err, Catch::Contains("no report page"));
+        CHECK(folder.fileCount() == 1);
+        return;
+    }
+    REQUIRE(run.exitCode == 0);
+    const Json json = Json::parse(run.out);
+    CHECK(json.at("cases").size() > 10);
+    const std::string command = "vdbounce bench field " + ball + " --points 1000 --repetitions 1";
+    CHECK(json.at("command") == command);
+    const std::string text = readFile(page);
+    CHECK(Json::parse(runInPage(text)) == json);
+    CHECK_THAT(text, Catch::Contains("<code id=\"command\">" + command + "</code>"));
+}
+
+TEST_CASE("every kind of bench refuses a page that it could not write, before measuring")
+{
+    for (const char* kind : {"field", "mesh", "make", "collide", "trade", "all"}) {
+        INFO(kind);
+        const std::string bench = std::string("bench ") + kind + " --html ";
+        CHECK(runTool(bench + "missing/report.html").exitCode == 2);
+        CHECK(runTool(bench + "report.txt").exitCode == 2);
+    }
+}
+
+TEST_CASE("the command that bench tells repeats the run, whatever its files are called")
+{
+    const TemporaryFolder folder;
+    const std::string bunny = folder / "the bunny's $mesh.obj";
+    std::filesystem::copy_file(sourcePath("data/bunny.obj"), bunny);
+    const ToolRun first = runTool("bench mesh \"" + (folder / "the bunny's \\$mesh.obj") +
+                                  "\" --dim 16 32 --band 2.5 --repetitions 1 --threads 1 --json");
+    INFO(first.err);
+    REQUIRE(first.exitCode == 0);
+    const Json json = Json::parse(first.out);
+    const std::string command = json.at("command");
+    INFO(command);
+    CHECK_THAT(command, Catch::StartsWith("vdbounce bench mesh '") &&
+                            Catch::EndsWith(" --dim 16 32 --band 2.5 --repetitions 1 --threads 1"));
+    const ToolRun second = runTool(command.substr(command.find(' ')) + " --json");
+    REQUIRE(second.exitCode == 0);
+    const Json again = Json::parse(second.out);
+    CHECK(again.at("command") == command);
+    REQUIRE(again.at("cases").size() == json.at("cases").size());
+    for (std::size_t i = 0; i < json.at("cases").size(); ++i)
+        CHECK(again["cases"][i]["name"] == json["cases"][i]["name"]);
 }

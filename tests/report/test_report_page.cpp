@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_page.h"
+#include "report/run_in_page.h"
 #include "report/sample_run.h"
 #include "support/temporary_folder.h"
 
@@ -30,14 +31,6 @@ std::string writtenPage(const std::string& json, const std::string& command)
     return readFile(folder / "report.html");
 }
 
-// What the browser takes for the run: the text up to the first end of a script.
-std::string runIn(const std::string& page)
-{
-    const std::string opening = R"(<script type="application/json" id="run">)";
-    const std::size_t begin = page.find(opening) + opening.size();
-    return page.substr(begin, page.find("</script", begin) - begin);
-}
-
 } // namespace
 
 TEST_CASE("a report page holds the run as it is and loads nothing")
@@ -45,7 +38,7 @@ TEST_CASE("a report page holds the run as it is and loads nothing")
     if (!hasReportPage()) return;
     const std::string page = writtenPage(sampleRun(), "vdbounce bench trade");
     CHECK_THAT(page, Catch::StartsWith("<!DOCTYPE html>") && Catch::EndsWith("</html>\n"));
-    CHECK(nlohmann::json::parse(runIn(page)) == nlohmann::json::parse(sampleRun()));
+    CHECK(nlohmann::json::parse(runInPage(page)) == nlohmann::json::parse(sampleRun()));
     CHECK_THAT(page, Catch::Contains("<code id=\"command\">vdbounce bench trade</code>"));
     CHECK_THAT(page, Catch::Contains("Permission is hereby granted, free of charge"));
     for (const char* loaded : {" src=", "<link", "@import", "url("}) CHECK_THAT(page, !Catch::Contains(loaded));
@@ -59,7 +52,7 @@ TEST_CASE("no name in a run nor a command breaks out of the report page")
     const nlohmann::json run = {{"machine", "<!-- <script>"},
                                 {"cases", {{{"name", "</script><img src=x>\xe2\x80\xa8"}}}}};
     const std::string page = writtenPage(run.dump(), "vdbounce </code><script>alert(1)</script> & more");
-    CHECK(nlohmann::json::parse(runIn(page)) == run);
+    CHECK(nlohmann::json::parse(runInPage(page)) == run);
     for (const char* tag : {"<script", "</script", "<img", "<!--", "</code"}) {
         INFO(tag);
         CHECK(countOf(page, tag) == countOf(plain, tag));

@@ -2,6 +2,13 @@
 #include "bench_report.h"
 
 #include "bench/machine.h"
+#include "option_values.h"
+#include "report/report_page.h"
+
+#include "vdbounce/base/error.h"
+
+#include <filesystem>
+#include <utility>
 
 namespace vdbounce::tool {
 namespace {
@@ -41,15 +48,27 @@ std::string casesText(const bench::Cases& cases)
     return text;
 }
 
-void reportCases(const CommonOptions& common, const bench::Cases& cases)
+void requirePage(const std::string& html, const std::vector<std::string>& inputs)
 {
-    reportCases(common, cases, casesText(cases));
+    if (html.empty()) return;
+    requireOutput(html, {"html"}, inputs);
+    const std::filesystem::path folder = std::filesystem::path(html).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw UsageError(html, "lies in a folder that does not exist", "make the folder first");
+    if (!report::hasReportPage()) report::writeReportPage("", "", html); // tells what this build lacks
 }
 
-void reportCases(const CommonOptions& common, const bench::Cases& cases, const std::string& text)
+void reportRun(const CommonOptions& common, BenchRun run, const std::string& html)
 {
+    if (common.threads > 0) run.command += " --threads " + std::to_string(common.threads);
     const std::string machine = bench::machineText();
-    report(common, {{"machine", machine}, {"cases", casesJson(cases)}}, machine + "\n" + text);
+    const Json json = {{"machine", machine}, {"command", run.command}, {"cases", std::move(run.cases)}};
+    if (!html.empty()) {
+        // Names of files need not be UTF-8.
+        const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+        report::writeReportPage(text, run.command, html);
+    }
+    report(common, json, machine + "\n" + run.text);
 }
 
 void append(bench::Cases& all, const bench::Cases& cases) { all.insert(all.end(), cases.begin(), cases.end()); }
@@ -60,6 +79,12 @@ void addRepetitions(CLI::App& verb, int& repetitions)
         ->check(CLI::Range(1, 1000))
         ->capture_default_str()
         ->type_name("N");
+}
+
+void addHtml(CLI::App& verb, std::string& html)
+{
+    verb.add_option("--html", html, "Write a page with charts and tables of the run, which opens from disk")
+        ->type_name("REPORT.html");
 }
 
 } // namespace vdbounce::tool

@@ -2,6 +2,7 @@
 #include "bench/bench_collide.h"
 #include "bench/bench_field.h"
 #include "bench_report.h"
+#include "command_text.h"
 #include "option_values.h"
 #include "progress_bar.h"
 
@@ -27,7 +28,25 @@ struct BenchArguments {
     std::vector<std::uint64_t> points;
     std::uint64_t particles = 10'000'000;
     int repetitions = 3;
+    std::string html;
 };
+
+std::string commandOfField(const BenchArguments& arguments)
+{
+    CommandText command("bench field");
+    command.add(arguments.files);
+    command.option("--points", arguments.points);
+    command.option("--repetitions", arguments.repetitions);
+    return command.text();
+}
+
+std::string commandOfCollide(const BenchArguments& arguments)
+{
+    CommandText command("bench collide");
+    command.option("--particles", arguments.particles);
+    command.option("--repetitions", arguments.repetitions);
+    return command.text();
+}
 
 bench::FieldSubject dragonSubject(ProgressBar& progress)
 {
@@ -54,6 +73,7 @@ std::vector<bench::FieldSubject> subjectsOf(const BenchArguments& arguments, con
 
 void runBenchField(const BenchArguments& arguments, const CommonOptions& common)
 {
+    requirePage(arguments.html, arguments.files);
     ProgressBar progress(common, "bench field");
     bench::FieldBenchOptions options;
     options.repetitions = arguments.repetitions;
@@ -61,11 +81,12 @@ void runBenchField(const BenchArguments& arguments, const CommonOptions& common)
     bench::Cases cases;
     for (const bench::FieldSubject& subject : subjectsOf(arguments, common, progress))
         append(cases, bench::benchField(subject, options, progress));
-    reportCases(common, cases);
+    reportRun(common, {commandOfField(arguments), casesJson(cases), casesText(cases)}, arguments.html);
 }
 
 void runBenchCollide(const BenchArguments& arguments, const CommonOptions& common)
 {
+    requirePage(arguments.html);
     ProgressBar progress(common, "bench collide");
     bench::CollideBenchOptions options;
     options.repetitions = arguments.repetitions;
@@ -76,7 +97,7 @@ void runBenchCollide(const BenchArguments& arguments, const CommonOptions& commo
     } else {
         warn(common, std::string("the bunny is left out: there is no ") + kBunny + " here");
     }
-    reportCases(common, cases);
+    reportRun(common, {commandOfCollide(arguments), casesJson(cases), casesText(cases)}, arguments.html);
 }
 
 void addBenchField(CLI::App& bench, const CommonOptions& common)
@@ -89,6 +110,7 @@ void addBenchField(CLI::App& bench, const CommonOptions& common)
         ->check(CLI::Range(std::uint64_t(1000), std::uint64_t(1000000000)))
         ->type_name("N");
     addRepetitions(*field, arguments->repetitions);
+    addHtml(*field, arguments->html);
     field->footer("Example:\n  vdbounce bench field bunny.vdb --points 2000000");
     field->callback([arguments, &common] { runWith(common, [&] { runBenchField(*arguments, common); }); });
 }
@@ -103,6 +125,7 @@ void addBenchCollide(CLI::App& bench, const CommonOptions& common)
         ->capture_default_str()
         ->type_name("N");
     addRepetitions(*collide, arguments->repetitions);
+    addHtml(*collide, arguments->html);
     collide->footer("Example:\n  vdbounce bench collide --particles 1000000");
     collide->callback([arguments, &common] { runWith(common, [&] { runBenchCollide(*arguments, common); }); });
 }

@@ -6,9 +6,9 @@
 #include "bench/bench_mesh.h"
 #include "bench/bench_redistance.h"
 #include "bench/bench_shapes.h"
-#include "bench/machine.h"
 #include "bench/trade_steps.h"
 #include "bench_report.h"
+#include "command_text.h"
 #include "progress_bar.h"
 #include "trade_report.h"
 
@@ -30,6 +30,18 @@ constexpr std::uint64_t kPoints = 2'000'000;
 constexpr std::uint64_t kParticles = 1'000'000;
 constexpr int kBunnyDim = 512;
 constexpr int kDragonDim = 512;
+
+struct BenchAllArguments {
+    int repetitions = 3;
+    std::string html;
+};
+
+std::string commandOf(const BenchAllArguments& arguments)
+{
+    CommandText command("bench all");
+    command.option("--repetitions", arguments.repetitions);
+    return command.text();
+}
 
 struct Kind {
     const char* name;
@@ -97,8 +109,9 @@ std::vector<bench::TradeCase> trade(int repetitions, Progress& progress)
     return cases;
 }
 
-void runBenchAll(int repetitions, const CommonOptions& common)
+void runBenchAll(const BenchAllArguments& arguments, const CommonOptions& common)
 {
+    requirePage(arguments.html);
     Json cases = Json::array();
     std::string text;
     const auto add = [&](const char* kind, const Json& some, const std::string& words) {
@@ -106,29 +119,29 @@ void runBenchAll(int repetitions, const CommonOptions& common)
             one["kind"] = kind;
             cases.push_back(one);
         }
-        text += "\n\n" + std::string(kind) + "\n" + words;
+        text += (text.empty() ? "\n" : "\n\n") + std::string(kind) + "\n" + words;
     };
     for (const Kind& kind : kKinds) {
         ProgressBar progress(common, std::string("bench ") + kind.name);
-        const bench::Cases found = kind.measure(repetitions, progress);
+        const bench::Cases found = kind.measure(arguments.repetitions, progress);
         add(kind.name, casesJson(found), casesText(found));
     }
     ProgressBar progress(common, "bench trade");
-    const std::vector<bench::TradeCase> found = trade(repetitions, progress);
+    const std::vector<bench::TradeCase> found = trade(arguments.repetitions, progress);
     add("trade", tradeJson(found), tradeText(found));
-    const std::string machine = bench::machineText();
-    report(common, {{"machine", machine}, {"cases", cases}}, machine + text);
+    reportRun(common, {commandOf(arguments), cases, text}, arguments.html);
 }
 
 } // namespace
 
 void addBenchAll(CLI::App& bench, const CommonOptions& common)
 {
-    auto repetitions = std::make_shared<int>(3);
+    auto arguments = std::make_shared<BenchAllArguments>();
     auto* all = bench.add_subcommand("all", "Some of everything, in under ten minutes on two cores");
-    addRepetitions(*all, *repetitions);
+    addRepetitions(*all, arguments->repetitions);
+    addHtml(*all, arguments->html);
     all->footer("Example:\n  vdbounce bench all --json");
-    all->callback([repetitions, &common] { runWith(common, [&] { runBenchAll(*repetitions, common); }); });
+    all->callback([arguments, &common] { runWith(common, [&] { runBenchAll(*arguments, common); }); });
 }
 
 } // namespace vdbounce::tool

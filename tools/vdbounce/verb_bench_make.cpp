@@ -4,6 +4,7 @@
 #include "bench/bench_redistance.h"
 #include "bench/bench_shapes.h"
 #include "bench_report.h"
+#include "command_text.h"
 #include "progress_bar.h"
 
 #include <memory>
@@ -11,8 +12,22 @@
 namespace vdbounce::tool {
 namespace {
 
-void runBenchMake(const bench::MakeBenchOptions& options, const CommonOptions& common)
+struct BenchMakeArguments {
+    bench::MakeBenchOptions options;
+    std::string html;
+};
+
+std::string commandOf(const BenchMakeArguments& arguments)
 {
+    CommandText command("bench make");
+    command.option("--repetitions", arguments.options.repetitions);
+    return command.text();
+}
+
+void runBenchMake(const BenchMakeArguments& arguments, const CommonOptions& common)
+{
+    requirePage(arguments.html);
+    const bench::MakeBenchOptions& options = arguments.options;
     bench::Cases cases;
     {
         ProgressBar progress(common, "bench make");
@@ -21,18 +36,19 @@ void runBenchMake(const bench::MakeBenchOptions& options, const CommonOptions& c
         append(cases, bench::benchBlobs(options, progress));
         append(cases, bench::benchRedistance(options, progress));
     }
-    reportCases(common, cases);
+    reportRun(common, {commandOf(arguments), casesJson(cases), casesText(cases)}, arguments.html);
 }
 
 } // namespace
 
 void addBenchMake(CLI::App& bench, const CommonOptions& common)
 {
-    auto options = std::make_shared<bench::MakeBenchOptions>();
+    auto arguments = std::make_shared<BenchMakeArguments>();
     auto* make = bench.add_subcommand("make", "Shapes, CSG, blobs and redistancing against OpenVDB's");
-    addRepetitions(*make, options->repetitions);
+    addRepetitions(*make, arguments->options.repetitions);
+    addHtml(*make, arguments->html);
     make->footer("Example:\n  vdbounce bench make --repetitions 1");
-    make->callback([options, &common] { runWith(common, [&] { runBenchMake(*options, common); }); });
+    make->callback([arguments, &common] { runWith(common, [&] { runBenchMake(*arguments, common); }); });
 }
 
 } // namespace vdbounce::tool

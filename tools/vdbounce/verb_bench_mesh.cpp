@@ -2,6 +2,7 @@
 #include "bench/bench_mesh.h"
 #include "bench/thread_counts.h"
 #include "bench_report.h"
+#include "command_text.h"
 #include "mesh_bench_table.h"
 #include "option_values.h"
 #include "progress_bar.h"
@@ -36,7 +37,18 @@ struct BenchMeshArguments {
     std::vector<int> dims;
     double bandVx = 3.0;
     int repetitions = 3;
+    std::string html;
 };
+
+std::string commandOf(const BenchMeshArguments& arguments)
+{
+    CommandText command("bench mesh");
+    command.add(arguments.files);
+    command.option("--dim", arguments.dims);
+    command.option("--band", arguments.bandVx);
+    command.option("--repetitions", arguments.repetitions);
+    return command.text();
+}
 
 // A part of a run in several parts, all of which the bar counts as equally long.
 class PartProgress : public Progress {
@@ -83,6 +95,7 @@ std::vector<int> dimsFor(const BenchMeshArguments& arguments, const std::string&
 
 void runBenchMesh(const BenchMeshArguments& arguments, const CommonOptions& common)
 {
+    requirePage(arguments.html, arguments.files);
     const std::vector<std::string> files = arguments.files.empty() ? defaultFiles(common) : arguments.files;
     std::size_t parts = 0;
     for (const std::string& file : files) parts += dimsFor(arguments, file).size();
@@ -102,10 +115,11 @@ void runBenchMesh(const BenchMeshArguments& arguments, const CommonOptions& comm
             }
         }
     }
-    reportCases(common, cases,
-                "meshToLevelSet and OpenVDB's meshToVolume, band " + rounded(arguments.bandVx) + " voxels, " +
-                    bench::threadsText() + ", medians of " + std::to_string(arguments.repetitions) +
-                    "; ratio is OpenVDB's processor time over ours\n\n" + meshBenchTable(results));
+    const std::string text = "meshToLevelSet and OpenVDB's meshToVolume, band " + rounded(arguments.bandVx) +
+                             " voxels, " + bench::threadsText() + ", medians of " +
+                             std::to_string(arguments.repetitions) +
+                             "; ratio is OpenVDB's processor time over ours\n\n" + meshBenchTable(results);
+    reportRun(common, {commandOf(arguments), casesJson(cases), text}, arguments.html);
 }
 
 } // namespace
@@ -126,6 +140,7 @@ void addBenchMesh(CLI::App& bench, const CommonOptions& common)
         ->capture_default_str()
         ->type_name("W");
     addRepetitions(*mesh, arguments->repetitions);
+    addHtml(*mesh, arguments->html);
     mesh->footer("Example:\n  vdbounce bench mesh bunny.obj --dim 128 512");
     mesh->callback([arguments, &common] { runWith(common, [&] { runBenchMesh(*arguments, common); }); });
 }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/machine.h"
 #include "bench/trade_scene.h"
 #include "bench/trade_steps.h"
 #include "bench_report.h"
+#include "command_text.h"
 #include "option_values.h"
 #include "progress_bar.h"
-#include "report.h"
-#include "report/report_page.h"
 #include "trade_report.h"
 
-#include "vdbounce/base/error.h"
 #include "vdbounce/io/mesh_file.h"
 
 #include <algorithm>
@@ -26,16 +23,16 @@ struct BenchTradeArguments {
     std::string html;
 };
 
-// That repeats the run.
 std::string commandOf(const BenchTradeArguments& arguments)
 {
-    const bench::TradeOptions& options = arguments.options;
-    std::string text = "vdbounce bench trade";
-    for (const std::string& file : arguments.files) text += " " + file;
-    text += " --dim " + std::to_string(arguments.dim) + " --points " + std::to_string(options.points) + " --shots " +
-            std::to_string(options.shots);
-    if (options.frames > 0) text += " --frames " + std::to_string(options.frames);
-    return text + " --repetitions " + std::to_string(options.repetitions);
+    CommandText command("bench trade");
+    command.add(arguments.files);
+    command.option("--dim", arguments.dim);
+    command.option("--points", arguments.options.points);
+    command.option("--shots", arguments.options.shots);
+    if (arguments.options.frames > 0) command.option("--frames", arguments.options.frames);
+    command.option("--repetitions", arguments.options.repetitions);
+    return command.text();
 }
 
 void append(std::vector<bench::TradeCase> some, std::vector<bench::TradeCase>& cases)
@@ -62,20 +59,9 @@ std::vector<bench::TradeCase> tradeFile(const std::string& file, const BenchTrad
     return bench::tradeLookups(subject, arguments.options, progress);
 }
 
-// Before minutes of measuring.
-void requirePage(const BenchTradeArguments& arguments)
-{
-    if (arguments.html.empty()) return;
-    requireOutput(arguments.html, {"html"}, arguments.files);
-    const std::filesystem::path folder = std::filesystem::path(arguments.html).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw UsageError(arguments.html, "lies in a folder that does not exist", "make the folder first");
-    if (!report::hasReportPage()) report::writeReportPage("", "", arguments.html); // tells what this build lacks
-}
-
 void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& common)
 {
-    requirePage(arguments);
+    requirePage(arguments.html, arguments.files);
     std::vector<bench::TradeCase> cases;
     {
         ProgressBar progress(common, "bench trade");
@@ -83,9 +69,7 @@ void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& co
         for (const std::string& file : arguments.files) append(tradeFile(file, arguments, progress), cases);
     }
     bench::markPareto(cases);
-    Json json = {{"machine", bench::machineText()}, {"command", commandOf(arguments)}, {"cases", tradeJson(cases)}};
-    if (!arguments.html.empty()) report::writeReportPage(json.dump(), commandOf(arguments), arguments.html);
-    report(common, json, json["machine"].get<std::string>() + "\n" + tradeText(cases));
+    reportRun(common, {commandOf(arguments), tradeJson(cases), tradeText(cases)}, arguments.html);
 }
 
 } // namespace
@@ -117,10 +101,7 @@ void addBenchTrade(CLI::App& bench, const CommonOptions& common)
         ->check(CLI::Range(1, 1'000'000'000))
         ->type_name("N");
     addRepetitions(*trade, arguments->options.repetitions);
-    trade
-        ->add_option("--html", arguments->html,
-                     "Write a page with the curves of error over cost, which opens from disk")
-        ->type_name("REPORT.html");
+    addHtml(*trade, arguments->html);
     trade->footer("Examples:\n  vdbounce bench trade bunny.obj --html trade.html\n"
                   "  vdbounce bench trade scene.toml --shots 500");
     trade->callback([arguments, &common] { runWith(common, [&] { runBenchTrade(*arguments, common); }); });
