@@ -104,19 +104,19 @@ TEST_CASE("the option --max-error takes the place of what the scene says")
 TEST_CASE("a max_error that nothing reaches names what can be, and a voxel size that does")
 {
     const BallScene scene;
-    const ToolRun refused = scene.collide("max_error = \"0.00005vx\"");
+    const ToolRun refused = scene.collide("max_error = \"0.0002vx\"");
     CHECK(refused.exitCode == 4);
     CHECK(lineCount(refused.err) == 1);
     INFO(refused.err);
     CHECK_FALSE(std::ifstream(scene.path("out.csv")).good());
     std::smatch found;
-    const std::regex pattern("ball.vdb: .* voxels of ([0-9.e-]+) or allow a max_error of ([0-9.e-]+)\n");
+    const std::regex pattern(
+        "ball.vdb: .* voxels of about ([0-9.e-]+) and ask for ([0-9.e-]+), or allow a max_error of ([0-9.e-]+)\n");
     REQUIRE(std::regex_search(refused.err, found, pattern));
-    CHECK(scene.collide("max_error = " + found[2].str()).exitCode == 0);
-    const double asked = 0.00005 * 0.0625;
+    CHECK(scene.collide("max_error = " + found[3].str()).exitCode == 0);
     scene.run("make sphere --center 0.01,0.02,0.03 --radius 1 --voxel " + found[1].str() + " -o " +
               scene.path("ball.vdb"));
-    CHECK(scene.collide("max_error = " + std::to_string(asked * 1e6) + "e-6").exitCode == 0);
+    CHECK(scene.collide("max_error = " + found[2].str()).exitCode == 0);
 }
 
 TEST_CASE("what lookups are off by is kept beside the file until that changes")
@@ -173,4 +173,33 @@ TEST_CASE("max_error asks the level sets of sequences and blobs, and nothing of 
     const Json report = scene.report("max_error = \"0.5vx\"", "", blobs);
     CHECK(report["measured_error_vx"] > 0.0);
     CHECK(report["measured_error_vx"] < 0.5);
+}
+
+TEST_CASE("a sequence takes the same choice whichever of its frames are run")
+{
+    const BallScene scene;
+    for (int frame = 0; frame <= 2; ++frame) {
+        const std::string shape = frame == 0 ? "sphere --center 0,0,0 --radius 1" : "box --center 0,0,0 --half 1,1,1";
+        scene.run("make " + shape + " --voxel 0.0625 -o " + scene.path("body." + std::to_string(frame) + ".vdb"));
+    }
+    const std::string file = "sequence = \"body.#.vdb\"";
+    const Json whole = scene.report("max_error = \"0.05vx\"", "--set output.file=o.#.csv", file);
+    const Json rest = scene.report("max_error = \"0.05vx\"", "--set output.file=o.#.csv --frames 1-2", file);
+    CHECK(whole["chosen"] == rest["chosen"]);
+    CHECK(whole["measured_error_vx"] == rest["measured_error_vx"]);
+}
+
+TEST_CASE("the plan tells what max_error chose, and refuses what a run refuses")
+{
+    const BallScene scene;
+    const Json run = scene.report("max_error = \"0.05vx\"");
+    const Json plan = scene.report("max_error = \"0.05vx\"", "--explain");
+    CHECK(plan["chosen"] == run["chosen"]);
+    CHECK(plan["measured_error_vx"] == run["measured_error_vx"]);
+    const std::string usual = "max_error = \"0.05vx\"";
+    CHECK(scene.collide(usual, "--explain --max-error 1e-9").exitCode == 4);
+    CHECK(scene.collide(usual, "--explain --frames 3-2").exitCode == 2);
+    CHECK(scene.collide(usual, "--explain --set output.file=p.csv").exitCode == 2);
+    const std::string sphere = "sphere = { center = [0, 0, 0], radius = 1 }";
+    CHECK(scene.collide(usual, "", sphere).exitCode == 2); // no voxels to measure in
 }

@@ -161,3 +161,21 @@ TEST_CASE("a sample of a level set's leaves is found by lookups as in the whole"
     INFO(errors.of(trilinear) << " " << measured);
     CHECK(errors.choices.front().phi + errors.resolution.error == Approx(measured).epsilon(0.1));
 }
+
+TEST_CASE("a surface that runs between leaves is looked at too")
+{
+    // All faces lie between the voxels 7 and 8 and so on of their leaves.
+    const LevelSetGrid grid = sampled(BoxShape{Vec3d::Constant(-0.5), Vec3d::Constant(8.0)}, 1.0);
+    CHECK(measureLookupErrors(grid, 1).reachable() > 0.1);
+}
+
+TEST_CASE("where the voxels do not tell what lookups are off by, no error is reachable")
+{
+    SampleFieldOptions thin;
+    thin.voxelSize = 1.0 / 16.0;
+    thin.exteriorVx = 1.0;
+    thin.interiorVx = 1.0;
+    const auto torus = makeField(TorusShape{Vec3d::Zero(), Vec3d::UnitY(), 0.75, 0.25});
+    CHECK(std::isinf(measureLookupErrors(sampleField(*torus, thin), 1).reachable()));
+    CHECK(std::isinf(measureLookupErrors(sampled(SphereShape{Vec3d::Zero(), 1.0}, 1.0), 1).reachable()));
+}

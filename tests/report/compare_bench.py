@@ -51,7 +51,11 @@ def main(source, work):
     assert "ball, cubic" in cubic[1] and "the usual choice" in cubic[1] and len(cubic) == 2, cubic
     wrong = compare(program, folder, run_of(error=2e-3), before)
     assert wrong[-1].startswith("less exact: ball, cubic: phi_p99 0.002, before 0.001"), wrong
-    assert compare(program, folder, {"cases": []}, before) == ["nothing to compare: no case is in both"]
+    usual = compare(program, folder, run_of(trilinear=40.0), {"cases": run_of()["cases"][-2:]})
+    assert usual[1].startswith("nearly all ratios changed"), usual
+    none = compare(program, folder, {"cases": []}, before)
+    assert none[0] == "nothing to compare: no case is in both" and none[1] == "gone: ball, cubic", none
+    assert none[-1] == "gone: 13 more", none
 
 
 main(*sys.argv[1:])

@@ -66,8 +66,10 @@ def slower(run, before):
     if not changes:
         return ["nothing to compare: no case is in both"]
     noise = noise_of(list(changes.values()))
-    lines = [f"compared {len(changes)} ratios, {math.exp(statistics.median(changes.values())):.3f} of before in the middle, "
-             f"noise {100 * noise:.0f} %"]
+    middle = statistics.median(changes.values())
+    lines = [f"compared {len(changes)} ratios, {math.exp(middle):.3f} of before in the middle, noise {100 * noise:.0f} %"]
+    if abs(middle) > DEVIATIONS * noise:
+        lines.append("nearly all ratios changed: what they are compared with did, the peers or the usual choice")
     worst = sorted((change, key) for key, change in changes.items() if change < -DEVIATIONS * noise)
     for change, (name, peer) in worst:
         lines.append(f"slower: {name}: {now[name, peer]:.3g} times {peer}, before {then[name, peer]:.3g}")
@@ -81,9 +83,16 @@ def less_exact(run, before):
     for case in run:
         for key, error in case.get("error", {}).items():
             old = then.get(case["name"], {}).get(key)
-            if old is not None and abs(error) > abs(old) * (1 + SAME_ERROR) + 1e-9:
+            if None not in (old, error) and abs(error) > abs(old) * (1 + SAME_ERROR) + 1e-9:
                 lines.append(f"less exact: {case['name']}: {key} {error:.3g}, before {old:.3g}")
     return lines
+
+
+def gone(run, before):
+    """Lines on what the baseline has and the run has not."""
+    names = {case["name"] for case in run}
+    missing = sorted({case["name"] for case in before} - names)
+    return [f"gone: {name}" for name in missing[:10]] + ([f"gone: {len(missing) - 10} more"] if len(missing) > 10 else [])
 
 
 def newest_baseline(path):
@@ -99,7 +108,7 @@ def main(path, baseline=None):
         return
     run, before = (json.loads(pathlib.Path(each).read_text())["cases"] for each in (path, baseline))
     print(f"against {pathlib.Path(baseline).name}:")
-    for line in slower(run, before) + less_exact(run, before):
+    for line in slower(run, before) + less_exact(run, before) + gone(run, before):
         print("  " + line)
 
 

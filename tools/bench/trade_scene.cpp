@@ -5,6 +5,7 @@
 #include "bench/stopwatch.h"
 
 #include "vdbounce/base/error.h"
+#include "vdbounce/scene/accuracy_plan.h"
 #include "vdbounce/scene/run.h"
 #include "vdbounce/scene/scene_file.h"
 
@@ -21,6 +22,7 @@ constexpr int kFinestSteps = 8; // in place of one
 Scene comparableScene(const std::string& file)
 {
     Scene scene = readScene(file);
+    if (const auto plan = planAccuracy(scene)) scene = withAccuracy(scene, *plan);
     scene.outputFile.clear();
     if (scene.frames == 0) throw UsageError(file, "time.frames is 0, so there is nothing to run", "give 1 or more");
     for (ColliderSpec& collider : scene.colliders) {

@@ -81,7 +81,7 @@ void reportExplanation(const Explanation& plan, const CommonOptions& common)
                  {"steps", plan.steps},
                  {"trial",
                   {{"particles", plan.trial.particles},
-                   {"frames", plan.trial.frames},
+                   {"steps", plan.trial.steps},
                    {"free", tally.free},
                    {"near", tally.near},
                    {"contacts", tally.contacts},
@@ -90,7 +90,10 @@ void reportExplanation(const Explanation& plan, const CommonOptions& common)
                  {"expected_seconds", nullptr},
                  {"expected_bytes", plan.bytes}};
     if (plan.seconds) json["expected_seconds"] = *plan.seconds;
-    if (plan.accuracy) json["chosen"] = toJson(plan.accuracy->chosen);
+    if (plan.accuracy) {
+        json["chosen"] = toJson(plan.accuracy->chosen);
+        json["measured_error_vx"] = plan.accuracy->measuredVx();
+    }
     report(common, json, text);
 }
 

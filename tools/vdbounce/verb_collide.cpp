@@ -105,12 +105,12 @@ void runCollide(const CollideArguments& arguments, const CommonOptions& common)
     Scene scene = sceneFor(arguments);
     if (arguments.maxError) scene.maxError = arguments.maxError;
     if (!scene.outputFile.empty()) requireOutput(scene.outputFile, {"vdb", "csv", "ply"}, {});
-    if (arguments.explain) {
-        reportExplanation(explainScene(scene), common);
-        return;
-    }
     const RunOptions options = runOptions(arguments);
     ProgressBar progress(common, "collide");
+    if (arguments.explain) {
+        reportExplanation(explainScene(scene, options, progress), common);
+        return;
+    }
     progress.expectFrames(options.firstFrame, options.lastFrame < 0 ? scene.frames : options.lastFrame,
                           scene.stepsPerFrame);
     const RunReport run = runScene(scene, options, progress);
@@ -127,7 +127,7 @@ void addCollide(CLI::App& app, const CommonOptions& common)
     CollideArguments& a = *arguments;
     verb->add_option("SCENE", a.sceneFile, "Scene file, .toml");
     verb->add_flag("--explain", a.explain,
-                   "Print the plan and what to expect, tried out on some particles, and write nothing");
+                   "Print the plan and what to expect, tried out on some particles, and run nothing");
     verb->add_option("--set", a.overrides, "Change a key of the scene, time.dt=0.002; may be repeated")
         ->take_all()
         ->expected(1)

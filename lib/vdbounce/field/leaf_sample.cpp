@@ -5,6 +5,7 @@
 #include "vdbounce/io/openvdb_grid.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vdbounce {
 namespace {
@@ -12,18 +13,16 @@ namespace {
 using Tree = openvdb::FloatTree;
 using Leaf = Tree::LeafNodeType;
 
-bool hasBothSides(const Leaf& leaf)
+// Also where the surface runs between its leaves.
+std::vector<const Leaf*> leavesAtSurface(const openvdb::FloatGrid& grid)
 {
-    const float* values = leaf.buffer().data();
-    const bool inside = values[0] < 0.0f;
-    return std::any_of(values, values + Leaf::SIZE, [&](float value) { return (value < 0.0f) != inside; });
-}
-
-std::vector<const Leaf*> leavesAtSurface(const Tree& tree)
-{
+    const openvdb::Vec3d side = grid.voxelSize();
+    const float near = float(std::max({side.x(), side.y(), side.z()}));
     std::vector<const Leaf*> leaves;
-    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
-        if (hasBothSides(*leaf)) leaves.push_back(&*leaf);
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const float* values = leaf->buffer().data();
+        if (std::any_of(values, values + Leaf::SIZE, [&](float value) { return std::abs(value) < near; }))
+            leaves.push_back(&*leaf);
     }
     return leaves;
 }
@@ -55,7 +54,7 @@ void copyPlace(const Tree& from, const openvdb::Coord& origin, Tree& to)
 std::vector<Vec3i> sampleLeaves(const LevelSetGrid& grid, std::size_t count, std::uint64_t seed)
 {
     std::vector<Vec3i> origins;
-    for (const Leaf* leaf : spread(leavesAtSurface(toOpenVdb(grid).constTree()), count, seed))
+    for (const Leaf* leaf : spread(leavesAtSurface(toOpenVdb(grid)), count, seed))
         origins.emplace_back(leaf->origin().x(), leaf->origin().y(), leaf->origin().z());
     return origins;
 }

@@ -10,8 +10,8 @@
 
 namespace vdbounce {
 
-/// The first voxels of at most `count` leaves that the surface runs through, evenly spread over the tree; `seed`
-/// tells which. None where the level set has no surface.
+/// The first voxels of at most `count` leaves with voxels within a voxel of the surface, evenly spread over the tree;
+/// `seed` tells which. None where the level set has no surface.
 std::vector<Vec3i> sampleLeaves(const LevelSetGrid& grid, std::size_t count, std::uint64_t seed);
 
 /// Those leaves and the 26 places around each as they are in `grid`, and nothing else: what is measured in so small a

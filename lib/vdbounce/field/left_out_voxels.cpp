@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vdbounce {
 namespace {
@@ -16,17 +17,32 @@ namespace {
 constexpr std::size_t kLeaves = 4096; // a tenth of a second
 constexpr std::size_t kLeavesPerTask = 32;
 
+// Of fewer voxels no quantile tells; and of three axes so many must have distances on both sides: on flat ground the
+// two along it do, in bands thinner than two voxels hardly any.
+constexpr std::size_t kFewestVoxels = 200;
+constexpr double kKnownShare = 0.55;
+
+// What splines were off by at spheres of 16 to 64 voxels, where leaving voxels out tells less.
+constexpr double kLeastVx = 2e-4;
+
 // How far voxels are from what others make of them.
 struct Misses {
     std::vector<double> linear2, linear4; // those on both sides, two and four voxels apart
     std::vector<double> spline2;          // four of them, two apart
+    std::size_t known = 0;                // axes along which there are four
 
     Misses& operator+=(const Misses& more)
     {
         linear2.insert(linear2.end(), more.linear2.begin(), more.linear2.end());
         linear4.insert(linear4.end(), more.linear4.begin(), more.linear4.end());
         spline2.insert(spline2.end(), more.spline2.begin(), more.spline2.end());
+        known += more.known;
         return *this;
+    }
+
+    bool tell() const
+    {
+        return spline2.size() >= kFewestVoxels && double(known) >= kKnownShare * 3.0 * double(spline2.size());
     }
 };
 
@@ -55,6 +71,7 @@ public:
                 linear2 += share * (0.5 * two.sum - middle);
                 linear4 += share * (0.5 * four.sum - middle);
             }
+            misses.known += six.known ? 1 : 0;
             if (six.known) spline2 += share * ((9.0 * two.sum - six.sum) / 16.0 - middle); // Catmull-Rom, halfway
         }
         misses.linear2.push_back(std::abs(linear2));
@@ -104,11 +121,14 @@ Resolution estimateResolution(const LevelSetGrid& grid, std::uint64_t seed)
         }
         return found;
     });
+    Resolution resolution;
+    if (misses.spline2.empty()) return resolution;
     const double linear2 = quantile(misses.linear2, kErrorShare);
     const double linear4 = quantile(misses.linear4, kErrorShare);
-    Resolution resolution;
     if (linear2 > 0.0) resolution.order = std::clamp(std::log2(linear4 / linear2), 1.0, 2.0);
-    resolution.error = quantile(misses.spline2, kErrorShare) / std::pow(2.0, resolution.order);
+    resolution.error = quantile(misses.spline2, kErrorShare) / std::pow(2.0, resolution.order) +
+                       kLeastVx * toOpenVdb(grid).voxelSize().x();
+    if (!misses.tell()) resolution.error = std::numeric_limits<double>::infinity();
     return resolution;
 }
 

@@ -30,7 +30,7 @@ struct LookupErrors {
     /// be among `choices`.
     double of(const FieldOptions& choice) const;
 
-    /// The least of all.
+    /// The least of all; infinite where the voxels do not tell.
     double reachable() const;
 
     /// The voxel's size with which a level set of the same surface would reach `error`, both world units.

@@ -9,6 +9,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -16,7 +17,8 @@ namespace vdbounce {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr int kVersion = 1; // of how it is measured, and of the file's keys
+constexpr double kMostLeaves = 1e12; // more than fit into any memory
+constexpr int kVersion = 2;          // of how it is measured, and of the file's keys
 
 std::string cachePath(const std::string& path) { return path + ".accuracy"; }
 
@@ -46,13 +48,13 @@ std::optional<LookupErrors> fromTable(const toml::table& table)
     bool complete = true;
     const auto number = [&](toml::node_view<const toml::node> node) {
         const std::optional<double> value = node.value<double>();
-        complete = complete && value;
+        complete = complete && value && *value >= 0.0; // infinite where the voxels do not tell
         return value.value_or(0.0);
     };
     const auto view = [&](const toml::table& at, const char* key) { return at[key]; };
     LookupErrors errors;
     errors.voxel = number(view(table, "voxel"));
-    errors.leaves = std::uint64_t(number(view(table, "leaves")));
+    errors.leaves = std::uint64_t(std::min(number(view(table, "leaves")), kMostLeaves));
     errors.resolution = {number(view(table, "resolution")), number(view(table, "order"))};
     const toml::array* choices = table["choice"].as_array();
     if (choices == nullptr || choices->size() != choicesByCost().size() || !choices->is_array_of_tables())

@@ -12,24 +12,27 @@ namespace vdbounce {
 
 struct AccuracyPlan {
     FieldOptions chosen;
-    double error = 0.0; ///< what it is off by: the largest of all level sets, world units
-    double voxel = 0.0; ///< the smallest of all level sets, world units; 0 where the scene has none
+    double error = 0.0;    ///< what it is off by: the largest of all level sets, world units
+    double measured = 0.0; ///< the same on another sample than the one that it was chosen by
+    double voxel = 0.0;    ///< the smallest of all level sets, world units; 0 where the scene has none
+
+    double measuredVx() const { return voxel > 0.0 ? measured / voxel : 0.0; }
 };
 
-/// The fastest choice whose error stays within the scene's maxError in each of its level sets (of sequences: in that of
-/// `frame`), and whose fields fit into a quarter of the machine's memory where one does. Errors are those of
-/// LookupErrors, and count between the level set and its surface only: the motion in between two frames of a sequence,
-/// and the steps, have their own. Nothing where the scene has no maxError.
+/// The fastest choice whose error stays within the scene's maxError in each of its level sets (of sequences: in the
+/// first of their files), in the sample that it is chosen by and in another, and whose fields fit into a quarter of the
+/// machine's memory where one does. Errors are those of LookupErrors, and count between the level set and its surface
+/// only: the motion in between two frames of a sequence, and the steps, have their own. Nothing where the scene has no
+/// maxError.
 ///
-/// The order of choices by cost is that of bench trade rather than timed here, so that a scene has the same results
-/// wherever it runs.
+/// The order of choices by cost is that of bench trade rather than timed here, so that the results of a scene do not
+/// depend on what else a machine does.
 ///
 /// Throws ToleranceError where no choice is exact enough, naming what can be reached and the voxel's size that would
-/// do. Cost: some tenths of a second a file; none for files that are in the cache.
-std::optional<AccuracyPlan> planAccuracy(const Scene& scene, int frame);
+/// do; UsageError for a maxError in voxels where there are none. Cost: some tenths of a second a file.
+std::optional<AccuracyPlan> planAccuracy(const Scene& scene);
 
-/// What the scene's own choice is off by, on another sample than the one that it was planned on: the largest of all
-/// level sets, world units.
-double measuredError(const Scene& scene, int frame);
+/// The scene with the accuracy that its maxError led to in place of both.
+Scene withAccuracy(const Scene& scene, const AccuracyPlan& plan);
 
 } // namespace vdbounce

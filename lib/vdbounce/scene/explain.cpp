@@ -6,6 +6,7 @@
 #include "vdbounce/io/number_text.h"
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/scene/describe_collider.h"
+#include "vdbounce/scene/run_checks.h"
 
 #include <cmath>
 #include <cstdio>
@@ -28,7 +29,7 @@ std::string describeAccuracy(const FieldOptions& accuracy, const std::optional<A
                        " normals, values kept as " + nameOf(accuracy.storage);
     if (plan)
         text += ", the cheapest within max_error: off by " + fewDigits(plan->error) + " (" +
-                fewDigits(plan->error / plan->voxel) + " voxels)";
+                fewDigits(plan->error / plan->voxel) + " voxels), on another sample " + fewDigits(plan->measuredVx());
     return text;
 }
 
@@ -39,6 +40,7 @@ std::string describeSweep(const Scene& scene, const ColliderSet& colliders)
     case Sweep::Never: return "sweep: left out (never); fast particles may pass through thin walls";
     case Sweep::Auto: break;
     }
+    if (colliders.size() == 0) return "sweep: none, there is nothing to touch";
     if (!(colliders.wallLength() > 0.0))
         return "sweep: along every path that may touch something (what is cut can be as thin as one likes)";
     return "sweep: only for steps longer than " + numberText(0.5 * colliders.wallLength()) +
@@ -92,18 +94,22 @@ std::string describeTrial(const Trial& trial)
     const StepTally& tally = trial.tally;
     const std::uint64_t all = tally.free + tally.near;
     return "steps: in a trial of " + std::to_string(trial.particles) + " particles over " +
-           std::to_string(trial.frames) + (trial.frames == 1 ? " frame " : " frames ") + percent(tally.free, all) +
-           " were free, " + percent(tally.near, all) + " looked something up; " + percent(tally.contacts, all) +
-           " touched, " +
+           std::to_string(trial.steps) + " steps " + percent(tally.free, all) + " were free, " +
+           percent(tally.near, all) + " looked something up; " + percent(tally.contacts, all) + " touched, " +
            (tally.swept == 0 ? "none was long enough for a sweep" : percent(tally.swept, all) + " were swept");
 }
 
-std::string describeExpectation(const Explanation& plan)
+std::string describeExpectation(const Explanation& plan, bool interact)
 {
-    std::string text = "expected: " + fewDigits(plan.trial.nsPerParticleStep) + " ns for a particle and step; " +
-                       std::to_string(plan.particles) + " particles in " + std::to_string(plan.steps) + " steps ";
-    text += plan.seconds ? "take about " + fewDigits(*plan.seconds) + " s" : "take longer, since they see each other";
-    return text + ", reading and writing apart, and " + sizeText(double(plan.bytes));
+    const std::string all = std::to_string(plan.particles) + " particles in " + std::to_string(plan.steps) + " steps ";
+    const std::string each = fewDigits(plan.trial.nsPerParticleStep) + " ns for a particle and step";
+    const std::string memory = ", and " + sizeText(double(plan.bytes));
+    if (plan.seconds)
+        return "expected: " + each + "; " + all + "take about " + fewDigits(*plan.seconds) +
+               " s, reading and writing apart" + memory;
+    return "expected: more than " + each + ", as " +
+           (interact ? "particles see each other" : "particles move colliders") + "; " + all +
+           "take longer than so few can tell" + memory;
 }
 
 // Of a particle, bytes: arrays with an entry for each.
@@ -121,25 +127,45 @@ std::uint64_t bytesWhileWritten(const std::string& file)
     return fileEnding(file) == "csv" ? 95 : 57;
 }
 
+struct FrameRange {
+    int first;
+    int count;
+};
+
+// What steps and memory it takes.
+void expect(const Scene& scene, SceneColliders& loader, const Particles& particles, const ParticleDefaults& defaults,
+            const FrameRange& frames, Progress& progress, Explanation& plan)
+{
+    constexpr double kWhileBuilt = 1.4; // a field and the grid that it is built from
+    plan.particles = particles.size();
+    plan.steps = std::uint64_t(frames.count) * std::uint64_t(scene.stepsPerFrame);
+    plan.bytes = std::uint64_t(kWhileBuilt * double(loader.memoryBytes())) + kProgramBytes +
+                 plan.particles * (bytesOfOne(particles, scene) + bytesWhileWritten(scene.outputFile));
+    const bool freeBodies = loader.onTheWayTo(frames.first).anyFree();
+    plan.trial = tryOut(scene, loader, particles, defaults, frames.first, frames.count, progress);
+    if (!scene.interact && !freeBodies)
+        plan.seconds = plan.trial.nsPerParticleStep * 1e-9 * double(plan.particles) * double(plan.steps);
+}
+
 } // namespace
 
-Explanation explainScene(const Scene& asked)
+Explanation explainScene(const Scene& asked, const RunOptions& options, Progress& progress)
 {
-    validate(asked);
+    requireRunnable(asked, options);
     Explanation plan;
-    plan.accuracy = planAccuracy(asked, 0);
-    Scene scene = asked;
-    if (plan.accuracy) scene.accuracy = plan.accuracy->chosen;
+    plan.accuracy = planAccuracy(asked);
+    const Scene scene = plan.accuracy ? withAccuracy(asked, *plan.accuracy) : asked;
     SceneColliders loader(scene);
-    const ColliderSet colliders = loader.onTheWayTo(0);
+    const ColliderSet colliders = loader.onTheWayTo(options.firstFrame);
     const ParticleDefaults defaults = particleDefaults(scene, colliders);
-    const Particles particles = readParticles(scene.particleFile);
+    const Particles particles = readParticles(startFile(scene, options.firstFrame));
     loader.requireBandsForRadius(colliders, particles, defaults);
-    const StepOptions options = stepOptions(scene, colliders);
-    const ContactReach reach = contactReach(particles, defaults, options);
+    const StepOptions steps = stepOptions(scene, colliders);
+    const ContactReach reach = contactReach(particles, defaults, steps);
+    const int frames = lastFrameOf(scene, options) - options.firstFrame;
 
     std::vector<std::string>& lines = plan.lines;
-    lines.push_back("time: " + std::to_string(scene.frames) + " frames of " + std::to_string(scene.stepsPerFrame) +
+    lines.push_back("time: " + std::to_string(frames) + " frames of " + std::to_string(scene.stepsPerFrame) +
                     " steps of " + numberText(scene.dt) + " s");
     lines.push_back("particles: " + std::to_string(particles.size()) + " of " + scene.particleFile + ", radius " +
                     numberText(defaults.radius) + " and mass " + numberText(defaults.mass) + " where it carries none");
@@ -150,17 +176,12 @@ Explanation explainScene(const Scene& asked)
     lines.push_back(describeScheme(scene));
     lines.push_back(describeSweep(scene, colliders));
     lines.push_back(describeLookups(scene, colliders));
-    lines.push_back(describeOmissions(scene, colliders, needsOf(colliders, options, scene.hits), reach.radius));
-
-    plan.particles = particles.size();
-    plan.steps = std::uint64_t(scene.frames) * std::uint64_t(scene.stepsPerFrame);
-    plan.bytes = loader.memoryBytes() + kProgramBytes +
-                 plan.particles * (bytesOfOne(particles, scene) + bytesWhileWritten(scene.outputFile));
-    plan.trial = tryOut(scene, loader, particles, defaults);
-    if (!scene.interact && !colliders.anyFree())
-        plan.seconds = plan.trial.nsPerParticleStep * 1e-9 * double(plan.particles) * double(plan.steps);
+    const std::string omissions =
+        describeOmissions(scene, colliders, needsOf(colliders, steps, scene.hits), reach.radius);
+    if (!omissions.empty()) lines.push_back(omissions);
+    expect(scene, loader, particles, defaults, {options.firstFrame, frames}, progress, plan);
     lines.push_back(describeTrial(plan.trial));
-    lines.push_back(describeExpectation(plan));
+    lines.push_back(describeExpectation(plan, scene.interact));
     return plan;
 }
 

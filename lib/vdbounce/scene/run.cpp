@@ -5,73 +5,14 @@
 #include "vdbounce/contact/particle_pass.h"
 #include "vdbounce/io/particle_file.h"
 #include "vdbounce/scene/accuracy_plan.h"
+#include "vdbounce/scene/run_checks.h"
 #include "vdbounce/scene/scene_colliders.h"
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <set>
 
 namespace vdbounce {
 namespace {
-
-std::string startFile(const Scene& scene, int firstFrame)
-{
-    if (firstFrame == 0) return scene.particleFile;
-    if (!hasFramePattern(scene.outputFile)) {
-        throw UsageError("--frames " + std::to_string(firstFrame) + "-", "the output has no #### to find that frame by",
-                         "start at frame 0");
-    }
-    return framePath(scene.outputFile, firstFrame);
-}
-
-bool isWritten(const Scene& scene, int frame, int lastFrame)
-{
-    if (scene.outputFile.empty()) return false;
-    if (frame == lastFrame) return true;
-    return hasFramePattern(scene.outputFile) && frame % scene.every == 0;
-}
-
-// A frame's file may have the name of a file that the scene reads, which writing would destroy.
-void requireInputsKept(const Scene& scene, int firstFrame, int lastFrame)
-{
-    std::set<std::filesystem::path> inputs;
-    const auto add = [&](const std::string& path) {
-        std::error_code missing;
-        const std::filesystem::path real = std::filesystem::canonical(path, missing);
-        if (!missing) inputs.insert(real);
-    };
-    add(scene.particleFile);
-    for (const ColliderSpec& collider : scene.colliders) {
-        if (!collider.file.empty()) add(collider.file);
-        if (collider.blobs) add(collider.blobs->file);
-        if (collider.heightfield) add(collider.heightfield->file);
-        for (int frame = 0; !collider.sequence.empty() && frame <= lastFrame; ++frame)
-            add(framePath(collider.sequence, frame));
-    }
-    for (int frame = firstFrame == 0 ? 0 : firstFrame + 1; frame <= lastFrame; ++frame) {
-        if (!isWritten(scene, frame, lastFrame)) continue;
-        const std::string output = framePath(scene.outputFile, frame);
-        std::error_code missing;
-        if (inputs.count(std::filesystem::canonical(output, missing)) == 0 || missing) continue;
-        throw UsageError(output, "is the input, which writing frame " + std::to_string(frame) + " would destroy",
-                         "name another output");
-    }
-}
-
-// All at once, rather than after hours at the one that is missing.
-void requireSequences(const Scene& scene, int firstFrame, int lastFrame)
-{
-    for (const ColliderSpec& collider : scene.colliders) {
-        for (int frame = firstFrame; !collider.sequence.empty() && frame <= lastFrame; ++frame) {
-            const std::string path = framePath(collider.sequence, frame);
-            if (std::filesystem::exists(path)) continue;
-            throw InputError(path, "of the sequence of collider '" + collider.name + "' does not exist",
-                             "write it, or end with --frames " + std::to_string(firstFrame) + "-" +
-                                 std::to_string(std::max(firstFrame, frame - 1)));
-        }
-    }
-}
 
 void requireSteppable(const PassReport& pass, const Scene& scene)
 {
@@ -84,9 +25,9 @@ void requireSteppable(const PassReport& pass, const Scene& scene)
 class Run {
 public:
     Run(const Scene& scene, const RunOptions& options, RunProgress& progress)
-        : scene_(scene), options_(options), progress_(progress),
-          lastFrame_(options.lastFrame < 0 ? scene.frames : options.lastFrame), loader_(scene),
-          colliders_(loader_.onTheWayTo(options.firstFrame)), defaults_(particleDefaults(scene, colliders_)),
+        : scene_(scene), options_(options), progress_(progress), lastFrame_(lastFrameOf(scene, options)),
+          loader_(scene), colliders_(loader_.onTheWayTo(options.firstFrame)),
+          defaults_(particleDefaults(scene, colliders_)),
           particles_(readParticles(startFile(scene, options.firstFrame)))
     {
         loader_.requireBandsForRadius(colliders_, particles_, defaults_);
@@ -179,23 +120,12 @@ private:
 
 RunReport runScene(const Scene& scene, const RunOptions& options, RunProgress& progress)
 {
-    validate(scene);
-    if (!scene.outputFile.empty()) requireParticleFile(scene.outputFile);
-    const int lastFrame = options.lastFrame < 0 ? scene.frames : options.lastFrame;
-    if (options.firstFrame < 0 || options.firstFrame > lastFrame) {
-        throw UsageError("--frames " + std::to_string(options.firstFrame) + "-" + std::to_string(lastFrame),
-                         "is no range of frames", "give FIRST-LAST with FIRST not above LAST");
-    }
-    requireInputsKept(scene, options.firstFrame, lastFrame);
-    requireSequences(scene, options.firstFrame, lastFrame);
-    const std::optional<AccuracyPlan> plan = planAccuracy(scene, options.firstFrame);
+    requireRunnable(scene, options);
+    const std::optional<AccuracyPlan> plan = planAccuracy(scene);
     if (!plan) return Run(scene, options, progress).run();
-    Scene planned = scene;
-    planned.accuracy = plan->chosen;
-    // Before hours of work rather than after them: it needs the files.
-    const double error = measuredError(planned, options.firstFrame);
+    const Scene planned = withAccuracy(scene, *plan);
     RunReport report = Run(planned, options, progress).run();
-    report.accuracy = RunAccuracy{plan->chosen, plan->voxel > 0.0 ? error / plan->voxel : 0.0};
+    report.accuracy = RunAccuracy{plan->chosen, plan->measuredVx()};
     return report;
 }
 
