@@ -52,13 +52,21 @@ bench::Cases benchMeshes(int repetitions, Progress& progress)
 {
     bench::Cases cases;
     const auto add = [&](const char* file, int dim) {
-        if (!std::filesystem::exists(file)) return;
+        if (!std::filesystem::exists(file)) return; // told by warnOfMissing()
         const std::string name = std::filesystem::path(file).filename().string();
         append(cases, bench::casesOf(bench::benchMesh(name, readMesh(file), {dim, 3.0, repetitions}, progress)));
     };
     add(kBunny, kBunnyDim);
     add(kDragon, kDragonDim);
     return cases;
+}
+
+void warnOfMissing(const CommonOptions& common)
+{
+    for (const char* file : {kBunny, kDragon}) {
+        if (!std::filesystem::exists(file))
+            warn(common, std::string(file) + " is left out: it is not here; run in the sources, ./dev data fetches it");
+    }
 }
 
 bench::Cases benchMaking(int repetitions, Progress& progress)
@@ -112,6 +120,7 @@ std::vector<bench::TradeCase> trade(int repetitions, Progress& progress)
 void runBenchAll(const BenchAllArguments& arguments, const CommonOptions& common)
 {
     requirePage(arguments.html);
+    warnOfMissing(common);
     Json cases = Json::array();
     std::string text;
     const auto add = [&](const char* kind, const Json& some, const std::string& words) {

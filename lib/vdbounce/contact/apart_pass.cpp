@@ -35,8 +35,9 @@ struct ParticlePass::Apart {
 // together, and flies on from there.
 class ParticlePass::ApartBlock {
 public:
-    ApartBlock(ParticlePass& pass, const Apart& apart, IndexRange range)
-        : pass_(pass), apart_(apart), range_(range), tally_(pass.colliders_->size()), batch_(*pass.colliders_)
+    ApartBlock(ParticlePass& pass, const Apart& apart, IndexRange range, Progress& progress)
+        : pass_(pass), apart_(apart), range_(range), progress_(progress), tally_(pass.colliders_->size()),
+          batch_(*pass.colliders_)
     {
     }
 
@@ -44,6 +45,7 @@ public:
     {
         flyAll();
         while (!active_.empty()) {
+            throwIfStopped(progress_); // a call may have millions of steps
             if (apart_.batches) lookAhead();
             std::size_t kept = 0;
             for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -135,6 +137,7 @@ private:
     ParticlePass& pass_;
     const Apart& apart_;
     const IndexRange range_;
+    Progress& progress_;
     StepTally tally_;
     std::array<int, kParticlesPerBlock> done_; // steps taken
     std::vector<std::size_t> active_;
@@ -163,7 +166,7 @@ StepTally ParticlePass::advanceApart(int steps, Progress& progress)
     ProgressCounter counter(progress, particles_.size());
     return reduceBlocks(particles_.size(), kParticlesPerBlock, StepTally(colliders_->size()), [&](IndexRange range) {
         throwIfStopped(progress);
-        StepTally tally = ApartBlock(*this, apart, range).run();
+        StepTally tally = ApartBlock(*this, apart, range, progress).run();
         counter.add(range.end - range.begin);
         return tally;
     });
