@@ -16,6 +16,7 @@ USUAL_STEP = {"scheme": "collide-contact", "sweep": "auto"}
 # A change must be beyond so many standard deviations, and these are taken for no less than a share of the ratio.
 DEVIATIONS = 4.0
 LEAST_NOISE = 0.04
+FEWEST_KIN = 8  # of which a common change is told from one's own
 
 # Errors do not depend on the machine but for the last digits; other repetitions have other points.
 SAME_ERROR = 1e-3
@@ -59,6 +60,23 @@ def noise_of(changes):
     return max(LEAST_NOISE, 1.4826 * statistics.median(abs(change - middle) for change in changes))
 
 
+def kin_of(cases):
+    """Case of bench trade -> what it shares with those that are compared with the same usual choice."""
+    return {case["name"]: (case["group"], case["settings"]["voxel"], case["settings"]["dt"])
+            for case in cases if "settings" in case}
+
+
+def without_common(changes, kin):
+    """Changes less that of all who share their usual choice, which one slow measurement of it makes; and their noise."""
+    groups = {}
+    for key, change in changes.items():
+        groups.setdefault(kin.get(key[0]), []).append(change)
+    common = {name: (statistics.median(group), noise_of(group)) for name, group in groups.items()
+              if name is not None and len(group) >= FEWEST_KIN}
+    return {key: (change - common.get(kin.get(key[0]), (0.0, 0.0))[0], common.get(kin.get(key[0]), (0.0, 0.0))[1])
+            for key, change in changes.items()}
+
+
 def slower(run, before):
     """Lines on cases that fell behind what they are compared with, and on how many were compared."""
     now, then = ratios(times_only(run)), ratios(times_only(before))
@@ -70,8 +88,9 @@ def slower(run, before):
     lines = [f"compared {len(changes)} ratios, {math.exp(middle):.3f} of before in the middle, noise {100 * noise:.0f} %"]
     if abs(middle) > DEVIATIONS * noise:
         lines.append("nearly all ratios changed: what they are compared with did, the peers or the usual choice")
-    worst = sorted((change, key) for key, change in changes.items() if change < -DEVIATIONS * noise)
-    for change, (name, peer) in worst:
+    own = without_common(changes, kin_of(run))
+    worst = sorted((change, key) for key, (change, spread) in own.items() if change < -DEVIATIONS * max(noise, spread))
+    for _, (name, peer) in worst:
         lines.append(f"slower: {name}: {now[name, peer]:.3g} times {peer}, before {then[name, peer]:.3g}")
     return lines + ([] if worst else ["nothing got slower beyond the noise"])
 
