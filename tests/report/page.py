@@ -62,12 +62,17 @@ document.body.dataset.address = location.hash;
 </script></body>"""
 
 
-def check_reader(page, folder):
+def open_with(script, page, folder):
+    """The page with a reader who does what the script does."""
     with open(page, encoding="utf-8") as file:
         text = file.read()
     with open(f"{folder}/reader.html", "w", encoding="utf-8") as file:
-        file.write(text.replace("</body>", READER))
-    document = open_page(f"{folder}/reader.html", folder)
+        file.write(text.replace("</body>", script))
+    return open_page(f"{folder}/reader.html", folder)
+
+
+def check_reader(page, folder):
+    document = open_with(READER, page, folder)
     assert attribute(document, "points-shown") == 30
     assert 'data-address="#sort=-bytes&amp;lookup=cubic"' in document, re.search(r'data-address="[^"]*"', document)
     assert 'aria-sort="descending"' in document
@@ -140,11 +145,7 @@ setTimeout(() => {
 
 
 def check_seeker(page, folder):
-    with open(page, encoding="utf-8") as file:
-        text = file.read()
-    with open(f"{folder}/seeker.html", "w", encoding="utf-8") as file:
-        file.write(text.replace("</body>", SEEKER))
-    document = open_page(f"{folder}/seeker.html", folder)
+    document = open_with(SEEKER, page, folder)
     assert 'data-focus="find"' in document
     assert "&amp;find=box%20threads&amp;sort=ratio&amp;peer=NanoVDB" in document, re.search(r'data-address="[^"]*"', document)
     ratios = [float(row[3].split("·")[0]) for row in chart_rows(document)]

@@ -6,6 +6,7 @@
 #include "bench/stopwatch.h"
 
 #include "vdbounce/base/parallel.h"
+#include "vdbounce/base/quantile.h"
 #include "vdbounce/field/sample_points.h"
 
 #include <algorithm>
@@ -49,10 +50,8 @@ Spread spreadOf(std::vector<double> errors)
     if (errors.empty()) return spread;
     for (double error : errors) spread.mean += error;
     spread.mean /= double(errors.size());
-    const auto p99 = errors.begin() + std::ptrdiff_t(0.99 * double(errors.size() - 1));
-    std::nth_element(errors.begin(), p99, errors.end());
-    spread.p99 = *p99;
-    spread.largest = *std::max_element(p99, errors.end());
+    spread.largest = *std::max_element(errors.begin(), errors.end());
+    spread.p99 = quantile(std::move(errors), kErrorShare);
     return spread;
 }
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/bench_blobs.h"
 #include "bench/bench_collide.h"
-#include "bench/bench_csg.h"
 #include "bench/bench_field.h"
+#include "bench/bench_make.h"
 #include "bench/bench_mesh.h"
-#include "bench/bench_redistance.h"
-#include "bench/bench_shapes.h"
-#include "bench/trade_steps.h"
+#include "bench/trade_shapes.h"
 #include "bench_report.h"
 #include "command_text.h"
 #include "progress_bar.h"
@@ -69,16 +66,6 @@ void warnOfMissing(const CommonOptions& common)
     }
 }
 
-bench::Cases benchMaking(int repetitions, Progress& progress)
-{
-    const bench::MakeBenchOptions options{repetitions};
-    bench::Cases cases = bench::benchShapes(options, progress);
-    append(cases, bench::benchCsg(options, progress));
-    append(cases, bench::benchBlobs(options, progress));
-    append(cases, bench::benchRedistance(options, progress));
-    return cases;
-}
-
 bench::Cases benchCollisions(int repetitions, Progress& progress)
 {
     bench::CollideBenchOptions options;
@@ -98,6 +85,8 @@ bench::Cases benchLookups(int repetitions, Progress& progress)
     return bench::benchField(bench::sphereSubject(), options, progress);
 }
 
+bench::Cases benchMaking(int repetitions, Progress& progress) { return bench::benchMake({repetitions}, progress); }
+
 const Kind kKinds[] = {
     {"field", benchLookups}, {"mesh", benchMeshes}, {"make", benchMaking}, {"collide", benchCollisions}};
 
@@ -105,14 +94,7 @@ std::vector<bench::TradeCase> trade(int repetitions, Progress& progress)
 {
     bench::TradeOptions options;
     options.repetitions = repetitions;
-    std::vector<bench::TradeCase> cases;
-    const auto add = [&](std::vector<bench::TradeCase> some) {
-        std::move(some.begin(), some.end(), std::back_inserter(cases));
-    };
-    for (const bench::TradeSubject& subject : bench::analyticSubjects(progress))
-        add(bench::tradeLookups(subject, options, progress));
-    add(bench::tradeShots(options, progress));
-    add(bench::tradeSlides(options, progress));
+    std::vector<bench::TradeCase> cases = bench::tradeShapes(options, progress);
     bench::markPareto(cases);
     return cases;
 }

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bench/bench_blobs.h"
-#include "bench/bench_csg.h"
-#include "bench/bench_redistance.h"
-#include "bench/bench_shapes.h"
+#include "bench/bench_make.h"
 #include "bench_report.h"
 #include "command_text.h"
 #include "progress_bar.h"
@@ -31,10 +28,7 @@ void runBenchMake(const BenchMakeArguments& arguments, const CommonOptions& comm
     bench::Cases cases;
     {
         ProgressBar progress(common, "bench make");
-        append(cases, bench::benchShapes(options, progress));
-        append(cases, bench::benchCsg(options, progress));
-        append(cases, bench::benchBlobs(options, progress));
-        append(cases, bench::benchRedistance(options, progress));
+        cases = bench::benchMake(options, progress);
     }
     reportRun(common, {commandOf(arguments), casesJson(cases), casesText(cases)}, arguments.html);
 }

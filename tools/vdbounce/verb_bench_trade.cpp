@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/trade_scene.h"
-#include "bench/trade_steps.h"
+#include "bench/trade_shapes.h"
 #include "bench_report.h"
 #include "command_text.h"
 #include "option_values.h"
@@ -40,16 +40,6 @@ void append(std::vector<bench::TradeCase> some, std::vector<bench::TradeCase>& c
     std::move(some.begin(), some.end(), std::back_inserter(cases));
 }
 
-std::vector<bench::TradeCase> tradeShapes(const bench::TradeOptions& options, Progress& progress)
-{
-    std::vector<bench::TradeCase> cases;
-    for (const bench::TradeSubject& subject : bench::analyticSubjects(progress))
-        append(bench::tradeLookups(subject, options, progress), cases);
-    append(bench::tradeShots(options, progress), cases);
-    append(bench::tradeSlides(options, progress), cases);
-    return cases;
-}
-
 std::vector<bench::TradeCase> tradeFile(const std::string& file, const BenchTradeArguments& arguments,
                                         Progress& progress)
 {
@@ -65,7 +55,7 @@ void runBenchTrade(const BenchTradeArguments& arguments, const CommonOptions& co
     std::vector<bench::TradeCase> cases;
     {
         ProgressBar progress(common, "bench trade");
-        if (arguments.files.empty()) append(tradeShapes(arguments.options, progress), cases);
+        if (arguments.files.empty()) append(bench::tradeShapes(arguments.options, progress), cases);
         for (const std::string& file : arguments.files) append(tradeFile(file, arguments, progress), cases);
     }
     bench::markPareto(cases);
