@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/precomputed_gradients.h"
 #include "support/grids.h"
-#include "support/random.h"
+#include "support/points_around.h"
 
 #include <cmath>
 
@@ -9,17 +9,6 @@ using namespace vdbounce;
 using namespace vdbounce::test;
 
 namespace {
-
-// In the band, in tiles, and outside.
-std::vector<Vec3d> pointsAround(const DistanceField& field, Random& random, std::size_t count)
-{
-    Box box = field.indexBox();
-    box.min -= Vec3d::Constant(3.0);
-    box.max += Vec3d::Constant(3.0);
-    std::vector<Vec3d> points;
-    while (points.size() < count) points.push_back(field.transform().toWorld(random.in(box)));
-    return points;
-}
 
 // The worst difference to the field's own lookup, in units in the last place of the largest voxel value.
 double worstUlps(const DistanceField& field, const std::vector<Vec3d>& points)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/grids.h"
-#include "support/random.h"
+#include "support/points_around.h"
 
 #include "vdbounce/field/sample_points.h"
 #include "vdbounce/field/vector_lookup.h"
@@ -29,16 +29,12 @@ bool sameBits(const std::vector<PointSample>& a, const std::vector<PointSample>&
 }
 
 // In the band, in tiles, on the box and outside of it.
-std::vector<Vec3d> pointsAround(const DistanceField& field, Random& random, std::size_t count)
+std::vector<Vec3d> pointsAroundAndBetween(const DistanceField& field, Random& random, std::size_t count)
 {
-    Box box = field.indexBox();
-    box.min -= Vec3d::Constant(3.0);
-    box.max += Vec3d::Constant(3.0);
-    std::vector<Vec3d> points;
-    while (points.size() < count) points.push_back(field.transform().toWorld(random.in(box)));
+    std::vector<Vec3d> points = pointsAround(field, random, count);
     // Half way between voxels, where both must round to the same side.
     for (int i = 0; i < 1000; ++i) {
-        points.push_back(field.transform().toWorld(random.in(box).array().floor() + 0.5));
+        points.push_back(field.transform().toWorld(random.in(boxAround(field)).array().floor() + 0.5));
     }
     return points;
 }
@@ -94,7 +90,7 @@ TEST_CASE("many points at once are looked up as one by one is")
                 const DistanceField field(levelSet(grid), options);
                 INFO("lookup " << int(options.lookup) << ", normal " << int(options.normal) << ", storage "
                                << int(options.storage));
-                CHECK(worstUlps(field, pointsAround(field, random, 20003)) <=
+                CHECK(worstUlps(field, pointsAroundAndBetween(field, random, 20003)) <=
                       (options.lookup == Lookup::Cubic ? 16.0 : 8.0));
             }
         }
@@ -107,7 +103,7 @@ TEST_CASE("lookups of many points have the same bits on any processor, in any or
     const LevelSetGrid grid = levelSet(bandGrid(sphere(1.5, Vec3d::Constant(0.02)), skewed(), 30));
     for (const FieldOptions& options : allOptions()) {
         const DistanceField field(grid, options);
-        std::vector<Vec3d> points = pointsAround(field, random, 10011);
+        std::vector<Vec3d> points = pointsAroundAndBetween(field, random, 10011);
         const std::vector<PointSample> best = lookUp(field, points);
         for (const std::string& target : vectorTargets()) {
             INFO(target);
